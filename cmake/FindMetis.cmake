@@ -1,0 +1,10 @@
+# METIS: Metis::Metis.
+find_path(Metis_INCLUDE_DIR metis.h)
+find_library(Metis_LIBRARY metis)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Metis REQUIRED_VARS Metis_INCLUDE_DIR Metis_LIBRARY)
+if(Metis_FOUND AND NOT TARGET Metis::Metis)
+  add_library(Metis::Metis INTERFACE IMPORTED)
+  target_include_directories(Metis::Metis SYSTEM INTERFACE ${Metis_INCLUDE_DIR})
+  target_link_libraries(Metis::Metis INTERFACE ${Metis_LIBRARY})
+endif()

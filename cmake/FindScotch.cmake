@@ -1,0 +1,11 @@
+# Scotch: Scotch::Scotch.
+find_path(Scotch_INCLUDE_DIR scotch.h PATH_SUFFIXES scotch)
+find_library(Scotch_LIBRARY scotch)
+find_library(Scotch_error_LIBRARY scotcherr)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Scotch REQUIRED_VARS Scotch_INCLUDE_DIR Scotch_LIBRARY Scotch_error_LIBRARY)
+if(Scotch_FOUND AND NOT TARGET Scotch::Scotch)
+  add_library(Scotch::Scotch INTERFACE IMPORTED)
+  target_include_directories(Scotch::Scotch SYSTEM INTERFACE ${Scotch_INCLUDE_DIR})
+  target_link_libraries(Scotch::Scotch INTERFACE ${Scotch_LIBRARY} ${Scotch_error_LIBRARY})
+endif()

@@ -1,0 +1,22 @@
+// The bytes of a graph file, held once: a mapped file or a buffer. Everything else points into them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace sg {
+
+struct Text {
+  std::shared_ptr<const void> owner;  // keeps `view` alive
+  std::string_view view;
+};
+
+inline Text text_of(std::string bytes) {
+  auto owner = std::make_shared<const std::string>(std::move(bytes));
+  const std::string_view view = *owner;
+  return {std::move(owner), view};
+}
+
+}  // namespace sg
