@@ -1,0 +1,217 @@
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <random>
+
+#include "lib/geometry/information.h"
+#include "lib/geometry/se2.h"
+#include "lib/geometry/se3.h"
+
+using namespace sg;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+std::mt19937 random_bits(7);
+
+double uniform(double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random_bits);
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> random_vector(double size = 1) {
+  return Eigen::Matrix<double, N, 1>::NullaryExpr([&] { return uniform(-size, size); });
+}
+
+template <int N>
+Eigen::Matrix<double, N, N> random_information() {
+  const auto square =
+      Eigen::Matrix<double, N, N>::NullaryExpr([] { return uniform(-1, 1); }).eval();
+  return square * square.transpose() + Eigen::Matrix<double, N, N>::Identity();
+}
+
+SE2 random_se2() {
+  return {uniform(-5, 5), uniform(-5, 5), uniform(-pi, pi)};
+}
+SE3 random_se3() {
+  return {Eigen::Quaterniond(random_vector<4>().normalized()), random_vector<3>(5)};
+}
+
+Matrix3d matrix(const SE2& a) {
+  Matrix3d m = Matrix3d::Identity();
+  m.topLeftCorner<2, 2>() = rotation(a.theta);
+  m.topRightCorner<2, 1>() << a.x, a.y;
+  return m;
+}
+
+Eigen::Matrix4d matrix(const SE3& a) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.topLeftCorner<3, 3>() = a.q.toRotationMatrix();
+  m.topRightCorner<3, 1>() = a.t;
+  return m;
+}
+
+// exp of a tangent vector as the power series of its matrix: the definition.
+template <class Matrix>
+Matrix power_series(const Matrix& x) {
+  Matrix term = Matrix::Identity(), sum = term;
+  for (int k = 1; k < 60; ++k) sum += (term = (term * x / k).eval());
+  return sum;
+}
+
+Matrix3d hat(const Vector3d& v) {
+  return Matrix3d{{0, -v[2], v[0]}, {v[2], 0, v[1]}, {0, 0, 0}};
+}
+Eigen::Matrix4d hat(const Vector6d& v) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  m.topLeftCorner<3, 3>() = skew(v.tail<3>());
+  m.topRightCorner<3, 1>() = v.head<3>();
+  return m;
+}
+
+template <class Pose>
+void check_group(const Pose& a, const Pose& b) {
+  CHECK(matrix(compose(a, b)).isApprox(matrix(a) * matrix(b), 1e-12));
+  CHECK(matrix(inverse(a)).isApprox(matrix(a).inverse().eval(), 1e-12));
+  CHECK(matrix(between(a, b)).isApprox(matrix(a).inverse() * matrix(b), 1e-12));
+}
+
+// d with  z d  the composition of a d1 and b d2, in the edge's own coordinates.
+Vector3d end_error(const SE2& z, const SE2& x) {
+  const SE2 d = between(z, x);
+  return {d.x, d.y, d.theta};
+}
+Vector6d end_error(const SE3& z, const SE3& x) {
+  const SE3 d = between(z, x);
+  Vector6d e;
+  e << d.t, (d.q.w() < 0 ? -1 : 1) * d.q.vec();
+  return e;
+}
+SE2 disturbed(const SE2& z, const Vector3d& d) {
+  return compose(z, SE2{d[0], d[1], d[2]});
+}
+SE3 disturbed(const SE3& z, const Vector6d& d) {
+  Eigen::Quaterniond q;
+  q.vec() = d.tail<3>();
+  q.w() = std::sqrt(1 - d.tail<3>().squaredNorm());
+  return compose(z, SE3{q, d.head<3>()});
+}
+
+// Covariance of f(d1, d2) by numerical differentiation at 0.
+template <int N, class F>
+Eigen::Matrix<double, N, N> numerical_covariance(const F& f, const Eigen::Matrix<double, N, N>& a,
+                                                 const Eigen::Matrix<double, N, N>& b) {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const double h = 1e-6;
+  Matrix ja, jb;
+  for (int k = 0; k < N; ++k) {
+    const Vector step = h * Vector::Unit(k), zero = Vector::Zero();
+    ja.col(k) = (f(step, zero) - f(-step, zero)) / (2 * h);
+    jb.col(k) = (f(zero, step) - f(zero, -step)) / (2 * h);
+  }
+  return ja * a.inverse() * ja.transpose() + jb * b.inverse() * jb.transpose();
+}
+
+template <int N, class Uncertain>
+void check_propagation(const Uncertain& a, const Uncertain& b) {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  const Uncertain both = compose(a, b);
+  const auto composed = [&](const Vector& d1, const Vector& d2) {
+    return end_error(both.mean, compose(disturbed(a.mean, d1), disturbed(b.mean, d2)));
+  };
+  const auto expected = numerical_covariance<N>(composed, a.information, b.information);
+  CHECK(both.information.inverse().isApprox(expected, 1e-7));
+
+  const Uncertain back = inverse(a);
+  const auto inverted = [&](const Vector& d, const Vector& ignored) {
+    return Vector(end_error(back.mean, inverse(disturbed(a.mean, d))) + 0 * ignored);
+  };
+  const auto covariance = numerical_covariance<N>(inverted, a.information, b.information);
+  CHECK(back.information.inverse().isApprox(covariance, 1e-7));
+}
+
+}  // namespace
+
+TEST_CASE("angles are wrapped to (-pi, pi]", "[geometry]") {
+  CHECK(wrap(0.5) == 0.5);
+  CHECK(wrap(pi) == pi);
+  CHECK(wrap(-pi) == pi);
+  CHECK(wrap(3 * pi / 2) == Approx(-pi / 2));
+  CHECK(wrap(-7) == Approx(2 * pi - 7));
+  for (int k = -50; k <= 50; ++k) {
+    const double angle = wrap(0.3 + k);
+    CHECK((angle > -pi && angle <= pi));
+    CHECK(std::sin(angle) == Approx(std::sin(0.3 + k)).margin(1e-12));
+  }
+}
+
+TEST_CASE("SE(2) follows its matrices", "[geometry]") {
+  for (int trial = 0; trial < 50; ++trial) {
+    const SE2 a = random_se2(), b = random_se2();
+    check_group(a, b);
+    const Eigen::Vector2d p = random_vector<2>();
+    CHECK(act(a, p).homogeneous().isApprox(matrix(a) * p.homogeneous(), 1e-12));
+    const Vector3d v = random_vector<3>(trial % 2 ? 3 : 1e-5);
+    CHECK(matrix(exp(v)).isApprox(power_series(hat(v)), 1e-10));
+    CHECK(log(exp(v)).isApprox(v, 1e-10));
+    CHECK(hat(Vector3d(adjoint(a) * v)).isApprox(matrix(a) * hat(v) * matrix(a).inverse(), 1e-9));
+  }
+}
+
+TEST_CASE("SE(3) follows its matrices", "[geometry]") {
+  for (int trial = 0; trial < 50; ++trial) {
+    const SE3 a = random_se3(), b = random_se3();
+    check_group(a, b);
+    const Vector3d p = random_vector<3>();
+    CHECK(act(a, p).homogeneous().isApprox(matrix(a) * p.homogeneous(), 1e-12));
+    const Vector6d v = random_vector<6>(trial % 2 ? 1.7 : 1e-3);
+    CHECK(matrix(exp(v)).isApprox(power_series(hat(v)), 1e-10));
+    CHECK(log(exp(v)).isApprox(v, 1e-10));
+    CHECK(hat(Vector6d(adjoint(a) * v)).isApprox(matrix(a) * hat(v) * matrix(a).inverse(), 1e-9));
+  }
+}
+
+TEST_CASE("the inverse left Jacobian is the derivative of log", "[geometry]") {
+  for (double size : {1.2, 0.1, 4e-3}) {
+    const Vector6d u = random_vector<6>(size);
+    const Matrix6d J = inverse_left_jacobian(u);
+    for (int k = 0; k < 6; ++k) {
+      const Vector6d step = 1e-6 * Vector6d::Unit(k);
+      const Vector6d slope =
+          (log(compose(exp(step), exp(u))) - log(compose(exp(Vector6d(-step)), exp(u)))) / 2e-6;
+      CHECK((slope - J.col(k)).norm() < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("roll, pitch and yaw go there and back", "[geometry]") {
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vector3d angles(uniform(-pi, pi), uniform(-pi / 2, pi / 2), uniform(-pi, pi));
+    const auto q = from_roll_pitch_yaw(angles[0], angles[1], angles[2]);
+    CHECK(roll_pitch_yaw(q).isApprox(angles, 1e-9));
+  }
+  for (double pitch : {pi / 2, -pi / 2}) {
+    const auto q = from_roll_pitch_yaw(0.3, pitch, 0.5);
+    const Vector3d angles = roll_pitch_yaw(q);
+    CHECK(from_roll_pitch_yaw(angles[0], angles[1], angles[2]).angularDistance(q) < 1e-7);
+  }
+}
+
+TEST_CASE("uncertainty propagates to first order", "[geometry]") {
+  for (int trial = 0; trial < 20; ++trial) {
+    check_propagation<3>(UncertainSE2{random_se2(), random_information<3>()},
+                         UncertainSE2{random_se2(), random_information<3>()});
+    check_propagation<6>(UncertainSE3{random_se3(), random_information<6>()},
+                         UncertainSE3{random_se3(), random_information<6>()});
+  }
+}
+
+TEST_CASE("what is unknown stays unknown in a parallel sum", "[geometry]") {
+  const Matrix3d a = Vector3d(4, 0, 3).asDiagonal();
+  const Matrix3d b = Vector3d(4, 0, 0).asDiagonal();
+  const Matrix3d expected = Vector3d(2, 0, 0).asDiagonal();
+  CHECK((parallel_sum<3>(a, b) - expected).norm() < 1e-12);
+}
