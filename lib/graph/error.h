@@ -1,4 +1,5 @@
-// The one exception type of sgtools. It carries what a person needs to act on it: the file, the line and the cause.
+// The one exception type of sgtools. It carries what a person needs to act on it: the file, the
+// line and the cause.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +35,9 @@ inline std::string message(const Error& error) {
 inline Error input_error(std::string file, std::size_t line, const std::string& cause) {
   return {Fault::input, std::move(file), line, cause};
 }
-inline Error usage_error(const std::string& cause) { return {Fault::usage, "", 0, cause}; }
+inline Error usage_error(const std::string& cause) {
+  return {Fault::usage, "", 0, cause};
+}
 inline Error computation_error(const std::string& cause) {
   return {Fault::computation, "", 0, cause};
 }

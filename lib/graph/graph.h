@@ -1,8 +1,9 @@
-// A SLAM graph as its file gives it: vertices (variables), edges (factors), and the text they came from.
+// A SLAM graph as its file gives it: vertices (variables), edges (factors), and the text they came
+// from.
 //
-// The text is always g2o text; other formats are translated on reading, line by line, so that a line number holds in
-// both. Nothing numeric is kept: measurements and estimates are parsed from the text when somebody wants them, and a
-// filter writes the lines it keeps byte for byte.
+// The text is always g2o text; other formats are translated on reading, line by line, so that a
+// line number holds in both. Nothing numeric is kept: measurements and estimates are parsed from
+// the text when somebody wants them, and a filter writes the lines it keeps byte for byte.
 //
 // Vertices are numbered 0..n-1 by ascending id, edges 0..m-1 in file order.
 #pragma once
@@ -35,25 +36,26 @@ struct Graph {
   Text text;
   Tags tags;
 
-  std::vector<Id> id;                   // n, strictly ascending
-  std::vector<TypeIndex> vertex_type;   // n, into tags.vertices
-  std::vector<Offset> vertex_line;      // n; all `implied` in a file without VERTEX lines
-  std::vector<bool> fixed;              // n; constants, no part in the elimination
+  std::vector<Id> id;                  // n, strictly ascending
+  std::vector<TypeIndex> vertex_type;  // n, into tags.vertices
+  std::vector<Offset> vertex_line;     // n; all `implied` in a file without VERTEX lines
+  std::vector<bool> fixed;             // n; constants, no part in the elimination
 
-  std::vector<TypeIndex> edge_type;     // m, into tags.edges
-  std::vector<Offset> edge_line;        // m, ascending
-  std::vector<Index> edge_begin;        // m + 1, into edge_vertices
-  std::vector<Index> edge_vertices;     // vertices of every edge, in file order
+  std::vector<TypeIndex> edge_type;  // m, into tags.edges
+  std::vector<Offset> edge_line;     // m, ascending
+  std::vector<Index> edge_begin;     // m + 1, into edge_vertices
+  std::vector<Index> edge_vertices;  // vertices of every edge, in file order
 
-  std::vector<Param> params;            // in file order
-  std::vector<Offset> fix_lines;        // in file order
-  std::string order_method;             // of the last `# sg-order: METHOD` comment, empty without one
-  bool edges_only = false;              // no VERTEX line in the file
+  std::vector<Param> params;      // in file order
+  std::vector<Offset> fix_lines;  // in file order
+  std::string order_method;       // of the last `# sg-order: METHOD` comment, empty without one
+  bool edges_only = false;        // no VERTEX line in the file
 
   Index vertices() const { return static_cast<Index>(id.size()); }
   Index edges() const { return static_cast<Index>(edge_type.size()); }
   std::span<const Index> edge(Index e) const {
-    return {edge_vertices.data() + edge_begin[e], static_cast<std::size_t>(edge_begin[e + 1] - edge_begin[e])};
+    return {edge_vertices.data() + edge_begin[e],
+            static_cast<std::size_t>(edge_begin[e + 1] - edge_begin[e])};
   }
   const VertexType& type_of_vertex(Index v) const { return tags.vertices[vertex_type[v]]; }
   const EdgeType& type_of_edge(Index e) const { return tags.edges[edge_type[e]]; }
@@ -64,8 +66,8 @@ struct Graph {
 // The vertex with this id, if there is one. O(log n).
 std::optional<Index> find_vertex(const Graph& graph, Id id);
 
-// The line (without its end) whose content starts at `line`, and its 1-based number. The number costs a count of the
-// text before it: for messages.
+// The line (without its end) whose content starts at `line`, and its 1-based number. The number
+// costs a count of the text before it: for messages.
 std::string_view line_at(const Graph& graph, Offset line);
 std::size_t line_number(const Graph& graph, Offset line);
 
@@ -73,15 +75,17 @@ std::size_t line_number(const Graph& graph, Offset line);
 struct Error;
 Error error_at(const Graph& graph, Offset line, const std::string& cause);
 
-// The numbers of a vertex line after its id; of an edge line after its vertex and parameter ids; of a parameter line
-// after its id. Appended to nothing: `numbers` is cleared first, so that one buffer serves a loop.
+// The numbers of a vertex line after its id; of an edge line after its vertex and parameter ids; of
+// a parameter line after its id. Appended to nothing: `numbers` is cleared first, so that one
+// buffer serves a loop.
 void vertex_numbers(const Graph& graph, Index v, std::vector<double>& numbers);
 void edge_numbers(const Graph& graph, Index e, std::vector<double>& numbers);
 void param_numbers(const Graph& graph, const Param& param, std::vector<double>& numbers);
 // The parameter ids of an edge line: EdgeType::params of them.
 std::vector<Id> edge_params(const Graph& graph, Index e);
 
-// Vertices in the order in which the file names them: by VERTEX line, or by first mention in an edges-only file.
+// Vertices in the order in which the file names them: by VERTEX line, or by first mention in an
+// edges-only file.
 std::vector<Index> file_order(const Graph& graph);
 
 }  // namespace sg

@@ -23,7 +23,8 @@ GraphPattern graph_pattern(const Graph& graph) {
     for (Index v : graph.edge(e)) {
       const Index j = result.vertex_variable[v];
       const auto begin = pattern.row_variables.begin() + row;
-      if (j >= 0 && std::find(begin, pattern.row_variables.end(), j) == pattern.row_variables.end()) {
+      if (j >= 0 &&
+          std::find(begin, pattern.row_variables.end(), j) == pattern.row_variables.end()) {
         pattern.row_variables.push_back(j);
       }
     }

@@ -1,5 +1,5 @@
-// The block pattern of the linearized system's Jacobian A: a row for every factor, a column for every variable.
-// It is all that ordering and elimination ever see of a graph.
+// The block pattern of the linearized system's Jacobian A: a row for every factor, a column for
+// every variable. It is all that ordering and elimination ever see of a graph.
 #pragma once
 
 #include <span>
@@ -10,22 +10,24 @@
 namespace sg {
 
 struct Pattern {
-  std::vector<int> dim;           // n: tangent dimension of every variable
-  std::vector<Index> row_begin;   // m + 1, into row_variables
+  std::vector<int> dim;              // n: tangent dimension of every variable
+  std::vector<Index> row_begin;      // m + 1, into row_variables
   std::vector<Index> row_variables;  // distinct variables of every factor, in file order
 
   Index variables() const { return static_cast<Index>(dim.size()); }
   Index rows() const { return static_cast<Index>(row_begin.size()) - 1; }
   std::span<const Index> row(Index r) const {
-    return {row_variables.data() + row_begin[r], static_cast<std::size_t>(row_begin[r + 1] - row_begin[r])};
+    return {row_variables.data() + row_begin[r],
+            static_cast<std::size_t>(row_begin[r + 1] - row_begin[r])};
   }
 };
 
 // An elimination order: order[k] is the variable that goes k-th. A permutation of 0..n-1.
 using Order = std::vector<Index>;
 
-// Variables are the graph's vertices that are not fixed, by ascending id; rows are its edges in file order.
-// variable_vertex[j] is the vertex of variable j; vertex_variable[v] the variable of vertex v, -1 if fixed.
+// Variables are the graph's vertices that are not fixed, by ascending id; rows are its edges in
+// file order. variable_vertex[j] is the vertex of variable j; vertex_variable[v] the variable of
+// vertex v, -1 if fixed.
 struct GraphPattern {
   Pattern pattern;
   std::vector<Index> variable_vertex;
@@ -43,10 +45,10 @@ struct Columns {
 };
 Columns columns(const Pattern& pattern);
 
-// The graph of A^T A: for every variable its neighbours, ascending, without itself and without duplicates.
-// For orderings that want adjacency; elimination does not form it.
+// The graph of A^T A: for every variable its neighbours, ascending, without itself and without
+// duplicates. For orderings that want adjacency; elimination does not form it.
 struct Adjacency {
-  std::vector<Index> begin;       // n + 1
+  std::vector<Index> begin;  // n + 1
   std::vector<Index> neighbours;
   Index size() const { return static_cast<Index>(begin.size()) - 1; }
   std::span<const Index> operator[](Index j) const {

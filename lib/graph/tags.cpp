@@ -134,12 +134,15 @@ void add_edge(Tags& tags, EdgeType type) {
   tags.edges.push_back(std::move(type));
 }
 
-bool full(std::size_t types) { return types > std::numeric_limits<TypeIndex>::max(); }
+bool full(std::size_t types) {
+  return types > std::numeric_limits<TypeIndex>::max();
+}
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
-    const auto at = text.rfind(separator);  // from the right: a tag may hold colons, the rest may not
+    const auto at =
+        text.rfind(separator);  // from the right: a tag may hold colons, the rest may not
     if (at == text.npos || parts.size() == 2) break;
     parts.insert(parts.begin(), text.substr(at + 1));
     text = text.substr(0, at);
@@ -209,7 +212,8 @@ void teach_edge(Tags& tags, std::string_view spec) {
   if (arity == 0 || full(tags.edges.size())) {
     throw usage_error("--edge wants TAG:ARITY, as in EDGE_MINE:2, not '" + std::string(spec) + "'");
   }
-  add_edge(tags, {std::string(spec.substr(0, at)), -1, std::vector<std::string>(arity), false, 0, -1});
+  add_edge(tags,
+           {std::string(spec.substr(0, at)), -1, std::vector<std::string>(arity), false, 0, -1});
 }
 
 }  // namespace sg

@@ -1,5 +1,6 @@
 // The tag registry: what every line tag of g2o's text format means for the structure of a graph.
-// Source: g2o's own type libraries; the facts (dimension, role, arity, parameters) are tabulated in tags.cpp.
+// Source: g2o's own type libraries; the facts (dimension, role, arity, parameters) are tabulated in
+// tags.cpp.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ std::string_view name(Role role);
 
 struct VertexType {
   std::string tag;
-  int dim;      // tangent-space dimension
+  int dim;  // tangent-space dimension
   Role role;
   int numbers;  // numbers after the id that the format asks for, -1 where it is not known
 };
@@ -23,11 +24,11 @@ struct VertexType {
 struct EdgeType {
   std::string tag;
   int dim;                             // of the measurement; -1 where it depends on the line
-  std::vector<std::string> endpoints;  // vertex tags in file order, "" where not known; of a counted edge: the first
-                                       // vertex and the one that repeats
-  bool counted;                        // TAG first-id count id...: the number of vertices stands in the line
-  int params;                          // parameter ids between the vertex ids and the measurement
-  int numbers;                         // numbers after those, -1 where it is not known (per repeated vertex if counted)
+  std::vector<std::string> endpoints;  // vertex tags in file order, "" where not known; of a
+                                       // counted edge: the first vertex and the one that repeats
+  bool counted;  // TAG first-id count id...: the number of vertices stands in the line
+  int params;    // parameter ids between the vertex ids and the measurement
+  int numbers;   // numbers after those, -1 where it is not known (per repeated vertex if counted)
 };
 
 // Index into Tags::vertices or Tags::edges.

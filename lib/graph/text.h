@@ -1,4 +1,5 @@
-// The bytes of a graph file, held once: a mapped file or a buffer. Everything else points into them.
+// The bytes of a graph file, held once: a mapped file or a buffer. Everything else points into
+// them.
 #pragma once
 
 #include <memory>

@@ -8,7 +8,9 @@
 
 namespace sg {
 
-constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+constexpr bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 // Takes the next word off the front of `line`; empty at its end.
 inline std::string_view next_word(std::string_view& line) {

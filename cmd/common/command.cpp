@@ -1,0 +1,155 @@
+#include "cmd/common/command.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <iostream>
+
+namespace sg {
+namespace {
+
+std::string shell_quoted(const std::string& word) {
+  constexpr auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:@%+";
+  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+  std::string quoted = "'";
+  for (char c : word) {
+    if (c == '\n' || c == '\r') {
+      quoted += ' ';  // the comment is one line
+    } else {
+      quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+  }
+  return quoted + "'";
+}
+
+void add_read_options(Command& command, ReadOptions& options) {
+  command.app.add_option("--from", options.format, "Input format; told by content otherwise")
+      ->type_name("FORMAT");
+  command.app
+      .add_option("--vertex", options.vertex_types,
+                  "Teach a vertex tag; ROLE: pose, landmark, other")
+      ->type_name("TAG:DIM:ROLE")
+      ->allow_extra_args(false);
+  command.app.add_option("--edge", options.edge_types, "Teach an edge tag")
+      ->type_name("TAG:ARITY")
+      ->allow_extra_args(false);
+}
+
+int report(const Command& command, const Error& error) {
+  std::cerr << command.name << ": " << message(error) << '\n';
+  return static_cast<int>(error.fault);
+}
+
+int usage_failure(const Command& command, const std::string& cause) {
+  std::cerr << command.name << ": " << cause << " (see " << command.name << " --help)\n";
+  return static_cast<int>(Fault::usage);
+}
+
+// Prints --help or --version, whose text is an output like any other.
+int print(const std::string& text) {
+  Output output("");
+  output.write(text);
+  output.commit();
+  return 0;
+}
+
+int guarded(const Command& command, const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const ClosedPipe&) {
+    return 0;
+  } catch (const Error& error) {
+    return error.fault == Fault::usage && error.file.empty() ? usage_failure(command, error.what())
+                                                             : report(command, error);
+  } catch (const std::bad_alloc&) {
+    return report(command, computation_error("out of memory"));
+  } catch (const std::exception& error) {
+    return report(command, computation_error(error.what()));
+  }
+}
+
+}  // namespace
+
+Command::Command(std::string name_, std::string what)
+    : app(std::move(what), name_), name(std::move(name_)) {
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.set_version_flag("--version", name + " (sgtools) " SGTOOLS_VERSION);
+  app.add_flag("-q,--quiet", quiet, "No warnings");
+  app.add_flag("-v,--verbose", verbose, "Say more on standard error");
+  app.get_formatter()->column_width(28);
+}
+
+int run(Command& command, int argc, char** argv, const std::function<void()>& work) {
+  return run_status(command, argc, argv, [&] {
+    work();
+    return 0;
+  });
+}
+
+int run_status(Command& command, int argc, char** argv, const std::function<int()>& work) {
+  std::signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE, and temporary files are removed
+  command.call = command.name;
+  for (int k = 1; k < argc; ++k) command.call += " " + shell_quoted(argv[k]);
+  return guarded(command, [&] {
+    try {
+      command.app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+      return print(command.app.help());
+    } catch (const CLI::CallForVersion& version) {
+      return print(std::string(version.what()) + "\n");
+    } catch (const CLI::ParseError& error) {
+      return usage_failure(command, error.what());
+    }
+    return work();
+  });
+}
+
+void warn(const Command& command, const std::string& text) {
+  if (!command.quiet) std::cerr << command.name << ": " << text << '\n';
+}
+
+void add_input(Command& command, Input& input) {
+  command.app.add_option("FILE", input.path, "Graph; standard input if - or missing")
+      ->option_text(" ");
+  add_read_options(command, input.options);
+}
+
+void add_inputs(Command& command, Inputs& inputs) {
+  command.app.add_option("FILE", inputs.paths, "Graphs; standard input if - or missing")
+      ->option_text("...");
+  add_read_options(command, inputs.options);
+}
+
+Graph read(const Input& input) {
+  if (input.path == "-" && ::isatty(STDIN_FILENO))
+    throw usage_error("no graph: give a FILE or pipe one in");
+  return read_graph(input.path, input.options);
+}
+
+Graph read(const Inputs& inputs, const std::string& path) {
+  return read(Input{path, inputs.options});
+}
+
+void add_output(Command& command, OutputOptions& output) {
+  command.app.add_option("-o,--output", output.path, "Write to FILE, whole or not at all")
+      ->type_name("FILE");
+}
+
+void add_filter_output(Command& command, OutputOptions& output) {
+  add_output(command, output);
+  command.app.add_flag("!--no-trace-comment", output.trace_comment,
+                       "Leave no comment of this call");
+}
+
+std::string trace_comment(const Command& command, const OutputOptions& output) {
+  return output.trace_comment ? "# " + command.call + "\n" : "";
+}
+
+void write_filtered(const Command& command, const OutputOptions& options, const Graph& graph,
+                    Changes changes) {
+  Output output(options.path);
+  write_changed(graph, std::move(changes), trace_comment(command, options), output);
+  output.commit();
+}
+
+}  // namespace sg

@@ -1,0 +1,66 @@
+// What every command does alike: parse the call, run, report, and end with the promised exit status
+// (sgtools.7).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "cmd/common/output.h"
+#include "formats/formats.h"
+
+namespace sg {
+
+struct Command {
+  // `name` as the user types it, `what` in one line.
+  Command(std::string name, std::string what);
+
+  CLI::App app;
+  std::string name;
+  bool quiet = false;    // -q
+  bool verbose = false;  // -v
+  std::string call;      // the call as typed, for the comment that a filter leaves; set by run()
+};
+
+// Parses, calls `work`, and returns the exit status: 0; or 1, 2, 3 after one line on standard
+// error.
+// --help, --version and a reader that closes the pipe end with 0.
+int run(Command& command, int argc, char** argv, const std::function<void()>& work);
+// The same where the work itself knows its status (sg-check).
+int run_status(Command& command, int argc, char** argv, const std::function<int()>& work);
+
+// "sg-ec: text" on standard error, unless -q.
+void warn(const Command& command, const std::string& text);
+
+// FILE, --from, --vertex, --edge.
+struct Input {
+  std::string path = "-";
+  ReadOptions options;
+};
+void add_input(Command& command, Input& input);
+// The same for several FILEs; `paths` is {"-"} where none is given.
+struct Inputs {
+  std::vector<std::string> paths{"-"};
+  ReadOptions options;
+};
+void add_inputs(Command& command, Inputs& inputs);
+// Reads the graph; a terminal as standard input is a usage error, since nobody types a graph.
+Graph read(const Input& input);
+Graph read(const Inputs& inputs, const std::string& path);
+
+// -o FILE, and for filters --no-trace-comment.
+struct OutputOptions {
+  std::string path;
+  bool trace_comment = true;
+};
+void add_output(Command& command, OutputOptions& output);
+void add_filter_output(Command& command, OutputOptions& output);
+
+// "# sg-dec -r 4 in.g2o\n", or nothing after --no-trace-comment.
+std::string trace_comment(const Command& command, const OutputOptions& output);
+// Writes the graph with its changes and the filter's comment, and commits it.
+void write_filtered(const Command& command, const OutputOptions& output, const Graph& graph,
+                    Changes changes);
+
+}  // namespace sg

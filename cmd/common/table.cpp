@@ -1,0 +1,94 @@
+#include "cmd/common/table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace sg {
+namespace {
+
+std::string text_of_cell(const Cell& cell) {
+  struct Printer {
+    std::string operator()(std::monostate) const { return ""; }
+    std::string operator()(const std::string& text) const { return text; }
+    std::string operator()(std::int64_t value) const { return std::to_string(value); }
+    std::string operator()(Wide value) const { return to_string(value); }
+    std::string operator()(double value) const { return format_number(value); }
+  };
+  return std::visit(Printer{}, cell);
+}
+
+// JSON has no infinities; integers of any length are its own numbers.
+std::string json_of_cell(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return nlohmann::json(*text).dump();
+  const auto* number = std::get_if<double>(&cell);
+  const bool missing =
+      std::holds_alternative<std::monostate>(cell) || (number && !std::isfinite(*number));
+  return missing ? "null" : text_of_cell(cell);
+}
+
+std::string joined(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (const auto name : names) text += (text.empty() ? "" : ",") + std::string(name);
+  return text;
+}
+
+}  // namespace
+
+std::string format_number(double value) {
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), result.ptr};
+}
+
+void add_table(Command& command, TableOptions& options,
+               const std::vector<std::string_view>& names) {
+  command.app.add_option("-f,--fields", options.columns, "Columns: " + joined(names))
+      ->delimiter(',')
+      ->type_name("NAME,...")
+      ->allow_extra_args(false);
+  command.app.add_flag("!--no-header", options.header, "No header line");
+  command.app.add_flag("--json", options.json, "One JSON object a row");
+}
+
+Table::Table(const TableOptions& options, std::vector<std::string_view> names, Output& output)
+    : names_(std::move(names)), json_(options.json), output_(output) {
+  for (const auto& wanted : options.columns) {
+    const auto it = std::find(names_.begin(), names_.end(), wanted);
+    if (it == names_.end())
+      throw usage_error("no column '" + wanted + "'; there are " + joined(names_));
+    chosen_.push_back(static_cast<std::size_t>(it - names_.begin()));
+  }
+  if (options.columns.empty()) {
+    chosen_.resize(names_.size());
+    std::iota(chosen_.begin(), chosen_.end(), 0);
+  }
+  if (json_ || !options.header) return;
+  std::string line;
+  for (const std::size_t k : chosen_) line += (line.empty() ? "" : "\t") + std::string(names_[k]);
+  output_.write(line + "\n");
+}
+
+bool Table::wants(std::string_view name) const {
+  return std::any_of(chosen_.begin(), chosen_.end(),
+                     [&](std::size_t k) { return names_[k] == name; });
+}
+
+void Table::row(const std::vector<Cell>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < chosen_.size(); ++i) {
+    const Cell& cell = cells.at(chosen_[i]);
+    if (json_) {
+      line +=
+          (i ? ", " : "{") + nlohmann::json(names_[chosen_[i]]).dump() + ": " + json_of_cell(cell);
+    } else {
+      line += (i ? "\t" : "") + text_of_cell(cell);
+    }
+  }
+  output_.write(line + (json_ ? "}\n" : "\n"));
+}
+
+}  // namespace sg

@@ -1,0 +1,49 @@
+// Graph files of every format: read into a Graph, told by their content.
+//
+// A format is one file (formats/NAME.cpp) and one line of the table in formats.cpp. Foreign formats
+// are translated to g2o text, one line for one line, so that there is one parser and a message's
+// line number holds in the user's own file.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lib/graph/error.h"
+#include "lib/graph/graph.h"
+
+namespace sg {
+
+// Called with every defect of a graph file. May throw; if it returns, reading goes on without the
+// defective line.
+using Complaint = std::function<void(const Error&)>;
+
+struct ReadOptions {
+  std::string format;                     // a name of the table; empty: told by content
+  std::vector<std::string> vertex_types;  // --vertex TAG:DIM:ROLE
+  std::vector<std::string> edge_types;    // --edge TAG:ARITY
+  Complaint complaint;                    // empty: throw the first
+};
+
+// The bytes of a file ("-": standard input), unpacked if they are gzip or zstd. A regular file is
+// mapped, not copied. Throws an input Error for what cannot be opened or read.
+Text read_text(const std::string& path);
+
+// Reads a graph. `path` "-" is standard input and is called <stdin> in messages.
+Graph read_graph(const std::string& path, const ReadOptions& options = {});
+// The same from text in memory; `file` names it in messages.
+Graph read_graph_text(Text text, const std::string& file, const ReadOptions& options = {});
+
+struct ReadFormat {
+  std::string_view name;
+  std::string_view what;
+  bool (*looks_like)(std::string_view text);
+  // Translates to g2o text, one line for one line (lines may follow at the end); null for g2o
+  // itself.
+  std::string (*to_g2o)(std::string_view text, const std::string& file, const Complaint& complaint);
+};
+std::span<const ReadFormat> read_formats();
+
+}  // namespace sg

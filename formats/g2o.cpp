@@ -1,0 +1,366 @@
+#include "formats/g2o.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "lib/graph/tokens.h"
+
+namespace sg {
+namespace {
+
+constexpr std::string_view order_comment = "# sg-order: ";
+
+// A line that has a defect: caught line by line, so that reading can go on.
+struct BadLine {
+  std::string cause;
+};
+
+std::string quoted(std::string_view word) {
+  return "'" + std::string(word) + "'";
+}
+
+// Ids fit 32 bits nearly always. The few that don't wait in `big`, and their place holds -1 - their
+// number there.
+struct IdList {
+  std::vector<Index> small;
+  std::vector<Id> big;
+
+  void push_back(Id id) {
+    if (id <= std::numeric_limits<Index>::max()) {
+      small.push_back(static_cast<Index>(id));
+    } else {
+      big.push_back(id);
+      small.push_back(-static_cast<Index>(big.size()));
+    }
+  }
+  Id operator[](std::size_t k) const { return small[k] >= 0 ? small[k] : big[-1 - small[k]]; }
+};
+
+struct Fix {
+  Id id;
+  Offset line;
+};
+
+// What parsing collects before ids are resolved: Graph's own arrays, vertices still in file order.
+struct Parser {
+  Graph graph;
+  const Complaint& complaint;
+  IdList edge_ids;
+  std::vector<Fix> fixes;
+  std::string_view last_tag;  // runs of lines share their tag: look it up once
+  const TagMeaning* last_meaning = nullptr;
+
+  explicit Parser(const Complaint& complaint_) : complaint(complaint_) {}
+};
+
+Id read_id(std::string_view& line, std::string_view what) {
+  const auto word = next_word(line);
+  if (word.empty()) throw BadLine{"the line ends before " + std::string(what)};
+  if (const auto id = parse<Id>(word); id && *id >= 0) return *id;
+  const bool digits = word.find_first_not_of("0123456789") == word.npos;
+  throw BadLine{quoted(word) + (digits ? " is beyond 64 bits, too large for " : " is not ") +
+                std::string(what)};
+}
+
+// Checks that the rest of the line is numbers, `needed` of them or more (-1: any count).
+void check_numbers(std::string_view line, int needed, std::string_view tag) {
+  int count = 0;
+  while (true) {
+    const auto word = next_word(line);
+    if (word.empty()) break;
+    if (!parse<double>(word)) throw BadLine{quoted(word) + " is not a number"};
+    ++count;
+  }
+  if (count < needed) {
+    throw BadLine{std::string(tag) + " wants " + std::to_string(needed) +
+                  " numbers here, the line has " + std::to_string(count)};
+  }
+}
+
+void parse_vertex(Parser& parser, TypeIndex type_index, Offset at, std::string_view rest) {
+  const VertexType& type = parser.graph.tags.vertices[type_index];
+  const Id id = read_id(rest, "a vertex id");
+  check_numbers(rest, type.numbers, type.tag);
+  parser.graph.id.push_back(id);
+  parser.graph.vertex_type.push_back(type_index);
+  parser.graph.vertex_line.push_back(at);
+}
+
+// The ids of an edge line, onto parser.edge_ids; returns how many numbers have to follow.
+int parse_edge_ids(Parser& parser, const EdgeType& type, std::string_view& rest) {
+  if (!type.counted) {
+    for (std::size_t k = 0; k < type.endpoints.size(); ++k)
+      parser.edge_ids.push_back(read_id(rest, "a vertex id"));
+    return type.numbers;
+  }
+  parser.edge_ids.push_back(read_id(rest, "a vertex id"));
+  const Id count = read_id(rest, "the number of vertices");
+  if (count > static_cast<Id>(rest.size()))
+    throw BadLine{"the line ends before its " + std::to_string(count) + " vertex ids"};
+  for (Id k = 0; k < count; ++k) parser.edge_ids.push_back(read_id(rest, "a vertex id"));
+  return static_cast<int>(count) * type.numbers;
+}
+
+void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_view rest) {
+  Graph& graph = parser.graph;
+  const EdgeType& type = graph.tags.edges[type_index];
+  const std::size_t first = parser.edge_ids.small.size();
+  try {
+    const int numbers = parse_edge_ids(parser, type, rest);
+    for (int k = 0; k < type.params; ++k) read_id(rest, "a parameter id");
+    check_numbers(rest, numbers, type.tag);
+  } catch (const BadLine&) {
+    parser.edge_ids.small.resize(first);
+    throw;
+  }
+  graph.edge_type.push_back(type_index);
+  graph.edge_line.push_back(at);
+  graph.edge_begin.push_back(static_cast<Index>(parser.edge_ids.small.size()));
+}
+
+void parse_fix(Parser& parser, Offset at, std::string_view rest) {
+  do {
+    parser.fixes.push_back({read_id(rest, "a vertex id"), at});
+    while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+  } while (!rest.empty());
+  parser.graph.fix_lines.push_back(at);
+}
+
+void parse_comment(Parser& parser, std::string_view line) {
+  if (line.starts_with(order_comment)) {
+    line.remove_prefix(order_comment.size());
+    parser.graph.order_method = next_word(line);
+  }
+}
+
+void parse_line(Parser& parser, Offset at, std::string_view line) {
+  auto rest = line;
+  const auto tag = next_word(rest);
+  if (tag.empty()) return;
+  if (tag.front() == '#') return parse_comment(parser, line.substr(tag.data() - line.data()));
+  if (tag != parser.last_tag) {
+    parser.last_meaning = parser.graph.tags.find(tag);
+    parser.last_tag = tag;
+  }
+  if (!parser.last_meaning)
+    throw BadLine{"unknown tag " + quoted(tag) + " (--vertex and --edge teach a new one)"};
+  const TypeIndex type = parser.last_meaning->type;
+  switch (parser.last_meaning->kind) {
+    case LineKind::vertex:
+      return parse_vertex(parser, type, at, rest);
+    case LineKind::edge:
+      return parse_edge(parser, type, at, rest);
+    case LineKind::fix:
+      return parse_fix(parser, at, rest);
+    case LineKind::param:
+      parser.graph.params.push_back({read_id(rest, "a parameter id"), at});
+      return check_numbers(rest, 0, tag);
+    case LineKind::data:
+      return;
+  }
+}
+
+void parse_lines(Parser& parser) {
+  const std::string_view text = parser.graph.text.view;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    try {
+      parse_line(parser, static_cast<Offset>(at), text.substr(at, end - at));
+    } catch (const BadLine& bad) {
+      parser.complaint(error_at(parser.graph, static_cast<Offset>(at), bad.cause));
+    }
+    at = end + 1;
+  }
+}
+
+// Address space for arrays that never move: pages are only touched as they fill.
+void reserve(Parser& parser) {
+  const std::string_view text = parser.graph.text.view;
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  Graph& graph = parser.graph;
+  graph.id.reserve(lines);
+  graph.vertex_type.reserve(lines);
+  graph.vertex_line.reserve(lines);
+  graph.edge_type.reserve(lines);
+  graph.edge_line.reserve(lines);
+  graph.edge_begin.reserve(lines + 1);
+  parser.edge_ids.small.reserve(2 * lines);
+}
+
+template <class T>
+void permute(std::vector<T>& values, const std::vector<Index>& order) {
+  std::vector<T> sorted(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = values[order[k]];
+  values = std::move(sorted);
+}
+
+// Numbers vertices by ascending id; of several with one id the first in the file stays.
+void sort_vertices(Parser& parser) {
+  Graph& graph = parser.graph;
+  if (std::adjacent_find(graph.id.begin(), graph.id.end(), std::greater_equal<>()) ==
+      graph.id.end())
+    return;
+  std::vector<Index> order(graph.id.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return graph.id[a] < graph.id[b]; });
+  std::vector<Index> kept;
+  kept.reserve(order.size());
+  std::vector<Index> duplicates;
+  for (Index v : order) {
+    (kept.empty() || graph.id[v] != graph.id[kept.back()] ? kept : duplicates).push_back(v);
+  }
+  std::sort(duplicates.begin(), duplicates.end());
+  for (Index v : duplicates) {
+    parser.complaint(
+        error_at(graph, graph.vertex_line[v],
+                 "vertex " + std::to_string(graph.id[v]) + " is defined a second time"));
+  }
+  permute(graph.id, kept);
+  permute(graph.vertex_type, kept);
+  permute(graph.vertex_line, kept);
+}
+
+// The vertex of an id: by table where ids are dense, by bisection where they are not.
+class VertexLookup {
+ public:
+  explicit VertexLookup(const std::vector<Id>& ids) : ids_(ids) {
+    if (ids.empty()) return;
+    const auto range =
+        static_cast<std::uint64_t>(ids.back()) - static_cast<std::uint64_t>(ids.front());
+    identity_ = range + 1 == ids.size();
+    if (identity_ || range > 2 * ids.size() + 1024) return;
+    table_.assign(range + 1, -1);
+    for (std::size_t v = 0; v < ids.size(); ++v)
+      table_[ids[v] - ids.front()] = static_cast<Index>(v);
+  }
+  Index operator[](Id id) const {
+    if (ids_.empty() || id < ids_.front() || id > ids_.back()) return -1;
+    if (identity_) return static_cast<Index>(id - ids_.front());
+    if (!table_.empty()) return table_[id - ids_.front()];
+    const auto it = std::lower_bound(ids_.begin(), ids_.end(), id);
+    return *it == id ? static_cast<Index>(it - ids_.begin()) : -1;
+  }
+
+ private:
+  const std::vector<Id>& ids_;
+  std::vector<Index> table_;
+  bool identity_ = false;
+};
+
+// In a file without VERTEX lines the edges say what their vertices are.
+void imply_vertices(Parser& parser) {
+  Graph& graph = parser.graph;
+  struct Mention {
+    Id id;
+    TypeIndex type;
+    Index edge;
+  };
+  std::vector<Mention> mentions;
+  mentions.reserve(parser.edge_ids.small.size());
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const EdgeType& type = graph.type_of_edge(e);
+    const bool known = !type.endpoints.empty() && !type.endpoints[0].empty();
+    if (!known) {
+      throw error_at(
+          graph, graph.edge_line[e],
+          type.tag + " does not say what its vertices are, and the file has no VERTEX lines");
+    }
+    for (Index k = graph.edge_begin[e]; k < graph.edge_begin[e + 1]; ++k) {
+      const std::size_t place =
+          std::min<std::size_t>(k - graph.edge_begin[e], type.endpoints.size() - 1);
+      mentions.push_back({parser.edge_ids[k], graph.tags.vertex_type(type.endpoints[place]), e});
+    }
+  }
+  std::stable_sort(mentions.begin(), mentions.end(),
+                   [](const Mention& a, const Mention& b) { return a.id < b.id; });
+  for (const Mention& mention : mentions) {
+    if (graph.id.empty() || graph.id.back() != mention.id) {
+      graph.id.push_back(mention.id);
+      graph.vertex_type.push_back(mention.type);
+    } else if (graph.vertex_type.back() != mention.type) {
+      parser.complaint(error_at(graph, graph.edge_line[mention.edge],
+                                "vertex " + std::to_string(mention.id) + " is " +
+                                    graph.tags.vertices[mention.type].tag + " here and " +
+                                    graph.tags.vertices[graph.vertex_type.back()].tag +
+                                    " in another edge"));
+    }
+  }
+  graph.vertex_line.assign(graph.id.size(), implied);
+  graph.edges_only = !graph.id.empty();
+}
+
+// Turns edge ids into vertex numbers, in place; edges to undefined vertices are complained of and
+// dropped.
+void resolve_edges(Parser& parser, const VertexLookup& lookup) {
+  Graph& graph = parser.graph;
+  std::vector<Index>& vertices = parser.edge_ids.small;
+  Index kept_edges = 0;
+  Index kept_ids = 0;
+  Index begin = 0;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const Index end = graph.edge_begin[e + 1];
+    bool whole = true;
+    for (Index k = begin; k < end; ++k) {
+      const Id id = parser.edge_ids[k];
+      const Index v = lookup[id];
+      if (v < 0) {
+        whole = false;
+        parser.complaint(error_at(graph, graph.edge_line[e],
+                                  graph.type_of_edge(e).tag + " joins vertex " +
+                                      std::to_string(id) + ", which the file does not define"));
+      }
+      vertices[kept_ids + (k - begin)] = v;
+    }
+    if (whole) {
+      kept_ids += end - begin;
+      graph.edge_type[kept_edges] = graph.edge_type[e];
+      graph.edge_line[kept_edges] = graph.edge_line[e];
+      graph.edge_begin[++kept_edges] = kept_ids;
+    }
+    begin = end;
+  }
+  vertices.resize(kept_ids);
+  graph.edge_type.resize(kept_edges);
+  graph.edge_line.resize(kept_edges);
+  graph.edge_begin.resize(kept_edges + 1);
+  graph.edge_vertices = std::move(vertices);
+}
+
+void resolve_fixes(Parser& parser, const VertexLookup& lookup) {
+  Graph& graph = parser.graph;
+  graph.fixed.assign(graph.id.size(), false);
+  for (const Fix& fix : parser.fixes) {
+    if (const Index v = lookup[fix.id]; v >= 0) {
+      graph.fixed[v] = true;
+    } else {
+      parser.complaint(error_at(
+          graph, fix.line,
+          "FIX names vertex " + std::to_string(fix.id) + ", which the file does not define"));
+    }
+  }
+}
+
+}  // namespace
+
+Graph parse_g2o(Text text, std::string file, Tags tags, const Complaint& complaint) {
+  Parser parser(complaint);
+  parser.graph.text = std::move(text);
+  parser.graph.file = std::move(file);
+  parser.graph.tags = std::move(tags);
+  reserve(parser);
+  parser.graph.edge_begin.push_back(0);
+  parse_lines(parser);
+  if (parser.graph.id.empty()) {
+    imply_vertices(parser);
+  } else {
+    sort_vertices(parser);
+  }
+  const VertexLookup lookup(parser.graph.id);
+  resolve_edges(parser, lookup);
+  resolve_fixes(parser, lookup);
+  return std::move(parser.graph);
+}
+
+}  // namespace sg

@@ -1,0 +1,16 @@
+// g2o's text format (sg-graph.5), the one that everything is read through.
+#pragma once
+
+#include "formats/formats.h"
+
+namespace sg {
+
+// Parses g2o text in one pass: checks every line of a known tag for its ids and for the numbers
+// that its type asks for, numbers vertices by ascending id, and resolves the edges' ids. O(text),
+// plus a sort where ids are out of order.
+//
+// Defects (missing or malformed numbers, unknown tags, ids out of range, duplicate vertices, edges
+// to vertices that the file does not define) go to `complaint`.
+Graph parse_g2o(Text text, std::string file, Tags tags, const Complaint& complaint);
+
+}  // namespace sg

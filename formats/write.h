@@ -1,0 +1,47 @@
+// Writing g2o text. A filter says what it changes; everything else is copied byte for byte.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lib/graph/graph.h"
+
+namespace sg {
+
+// Where a command's output goes, in large pieces. Throws a computation Error when the bytes cannot
+// be written.
+struct Sink {
+  virtual void write(std::string_view bytes) = 0;
+
+ protected:
+  ~Sink() = default;
+};
+
+// A change to a text: the bytes [begin, end) become `replacement`; begin == end inserts.
+struct Edit {
+  Offset begin;
+  Offset end;
+  std::string replacement;
+};
+
+// [begin, end) of the line at `line`, its newline included.
+std::pair<Offset, Offset> line_extent(const Graph& graph, Offset line);
+// [begin, end) of a VERTEX line together with the data lines that belong to it (those that follow
+// it directly).
+std::pair<Offset, Offset> vertex_extent(const Graph& graph, Index v);
+
+// What a filter leaves out, rewrites and adds. Sized by `unchanged`.
+struct Changes {
+  std::vector<bool> drop_vertex;  // n; drops its data lines and its id in FIX lines, too
+  std::vector<bool> drop_edge;    // m
+  std::vector<Edit> edits;        // of other places; none may overlap a dropped line
+  std::string append;             // lines at the end of the text, each with its newline
+};
+Changes unchanged(const Graph& graph);
+
+// Writes the graph's text with the changes. `comment` (a line with its newline, or nothing) goes
+// first.
+void write_changed(const Graph& graph, Changes changes, std::string_view comment, Sink& sink);
+
+}  // namespace sg

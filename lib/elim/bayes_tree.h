@@ -1,0 +1,26 @@
+// The Bayes tree of an elimination (Kaess et al., iSAM2, IJRR 2012, algorithm 2), symbolic part.
+//
+// Conditionals are taken in reverse elimination order. Conditional i joins the clique of its parent
+// p in the elimination tree when its separator is p and all of p's separator, and no other child
+// joined on top of p before; otherwise it opens a clique below. The separator of i always lies
+// within {p} and p's separator, so equal dimensions mean equal sets.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/elim/score.h"
+
+namespace sg {
+
+struct BayesTree {
+  std::vector<Index> clique;  // of every position
+  std::vector<Index> parent;  // of every clique, -1 at a root; parents come before their children
+  std::vector<Index> top;     // last eliminated position of every clique
+  std::vector<std::int64_t> frontal_dim;  // d_f of every clique
+  std::vector<std::int64_t> total_dim;    // d_f + d_s of every clique
+  Index cliques() const { return static_cast<Index>(parent.size()); }
+};
+BayesTree bayes_tree(const Symbolic& symbolic);
+
+}  // namespace sg

@@ -1,0 +1,45 @@
+// The elimination tree of A^T A, straight from the rows of A.
+//
+// Eliminating variables in an order, the parent of a variable is the first of its separator to be
+// eliminated after it (Liu, The role of elimination trees in sparse factorization, 1990). The tree
+// is computed from the factors without forming A^T A (Davis, Direct Methods for Sparse Linear
+// Systems, 2006, section 4.1 and 4.7), in near-linear time.
+//
+// Here and in all of lib/elim, variables are called by their *position* in the order: 0 is
+// eliminated first.
+#pragma once
+
+#include <vector>
+
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+// The pattern with variables renumbered by position: variable order[k] becomes k. Rows hold
+// ascending positions, and the rows are grouped by the position of their first variable (Davis's
+// "head/next" lists, laid flat).
+struct OrderedPattern {
+  std::vector<int> dim;          // n
+  std::vector<Index> row_begin;  // m' + 1, rows with at least one variable
+  std::vector<Index> row_positions;
+  Index variables() const { return static_cast<Index>(dim.size()); }
+  Index rows() const { return static_cast<Index>(row_begin.size()) - 1; }
+  std::span<const Index> row(Index r) const {
+    return {row_positions.data() + row_begin[r],
+            static_cast<std::size_t>(row_begin[r + 1] - row_begin[r])};
+  }
+};
+// Throws std::invalid_argument if `order` is not a permutation of the pattern's variables.
+OrderedPattern ordered(const Pattern& pattern, const Order& order);
+
+// parent[k] of every position, -1 at a root.
+std::vector<Index> elimination_tree(const OrderedPattern& pattern);
+
+// A postorder of the forest: children before parents, subtrees contiguous, siblings ascending.
+std::vector<Index> postorder(const std::vector<Index>& parent);
+
+// Depth of the deepest vertex, counted in vertices; 0 for the empty tree. parent[k] > k is
+// required.
+Index height(const std::vector<Index>& parent);
+
+}  // namespace sg

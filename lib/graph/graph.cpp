@@ -1,0 +1,100 @@
+#include "lib/graph/graph.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "lib/graph/error.h"
+#include "lib/graph/tokens.h"
+
+namespace sg {
+namespace {
+
+void parse_rest(const Graph& graph, Offset line, std::string_view rest,
+                std::vector<double>& numbers) {
+  numbers.clear();
+  while (true) {
+    const auto word = next_word(rest);
+    if (word.empty()) return;
+    const auto value = parse<double>(word);
+    if (!value) throw error_at(graph, line, "'" + std::string(word) + "' is not a number");
+    numbers.push_back(*value);
+  }
+}
+
+// The rest of a line after its tag and `words` more words.
+std::string_view after(const Graph& graph, Offset line, std::size_t words) {
+  auto rest = line_at(graph, line);
+  for (std::size_t k = 0; k <= words; ++k) next_word(rest);
+  return rest;
+}
+
+// Words between an edge's tag and its parameter ids: vertex ids, and the count of a counted edge.
+std::size_t id_words(const Graph& graph, Index e) {
+  return graph.edge(e).size() + (graph.type_of_edge(e).counted ? 1 : 0);
+}
+
+}  // namespace
+
+std::optional<Index> find_vertex(const Graph& graph, Id id) {
+  const auto it = std::lower_bound(graph.id.begin(), graph.id.end(), id);
+  if (it == graph.id.end() || *it != id) return std::nullopt;
+  return static_cast<Index>(it - graph.id.begin());
+}
+
+std::string_view line_at(const Graph& graph, Offset line) {
+  const auto rest = graph.text.view.substr(static_cast<std::size_t>(line));
+  return rest.substr(0, rest.find('\n'));
+}
+
+std::size_t line_number(const Graph& graph, Offset line) {
+  const auto before = graph.text.view.substr(0, static_cast<std::size_t>(line));
+  return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
+Error error_at(const Graph& graph, Offset line, const std::string& cause) {
+  return input_error(graph.file, line == implied ? 0 : line_number(graph, line), cause);
+}
+
+void vertex_numbers(const Graph& graph, Index v, std::vector<double>& numbers) {
+  parse_rest(graph, graph.vertex_line[v], after(graph, graph.vertex_line[v], 1), numbers);
+}
+
+void edge_numbers(const Graph& graph, Index e, std::vector<double>& numbers) {
+  const std::size_t skip = id_words(graph, e) + graph.type_of_edge(e).params;
+  parse_rest(graph, graph.edge_line[e], after(graph, graph.edge_line[e], skip), numbers);
+}
+
+void param_numbers(const Graph& graph, const Param& param, std::vector<double>& numbers) {
+  parse_rest(graph, param.line, after(graph, param.line, 1), numbers);
+}
+
+std::vector<Id> edge_params(const Graph& graph, Index e) {
+  auto rest = after(graph, graph.edge_line[e], id_words(graph, e));
+  std::vector<Id> ids(graph.type_of_edge(e).params);
+  for (Id& id : ids) {
+    const auto value = parse<Id>(next_word(rest));
+    if (!value) throw error_at(graph, graph.edge_line[e], "a parameter id is missing");
+    id = *value;
+  }
+  return ids;
+}
+
+std::vector<Index> file_order(const Graph& graph) {
+  std::vector<Index> order;
+  order.reserve(graph.vertices());
+  if (!graph.edges_only) {
+    order.resize(graph.vertices());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](Index a, Index b) { return graph.vertex_line[a] < graph.vertex_line[b]; });
+    return order;
+  }
+  std::vector<bool> seen(graph.vertices(), false);
+  for (Index v : graph.edge_vertices) {
+    if (!seen[v]) order.push_back(v);
+    seen[v] = true;
+  }
+  return order;
+}
+
+}  // namespace sg

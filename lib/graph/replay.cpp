@@ -1,0 +1,142 @@
+#include "lib/graph/replay.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sg {
+namespace {
+
+// The last pose index of an edge, -1 where it joins no pose.
+Index last_pose(const Graph& graph, const PoseIndex& poses, Index e) {
+  Index last = -1;
+  for (Index v : graph.edge(e)) last = std::max(last, poses.index[v]);
+  return last;
+}
+
+// The step that gives every landmark (or other vertex) its min_obs-th observation, -1 where it
+// never comes.
+void enter_observed(const Graph& graph, const PoseIndex& poses, int min_obs,
+                    std::vector<Index>& vertex_step) {
+  std::vector<std::pair<Index, Index>> seen;  // (vertex, step of an observation)
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const Index last = last_pose(graph, poses, e);
+    if (last < 0) continue;
+    for (Index v : graph.edge(e)) {
+      if (poses.index[v] < 0) seen.emplace_back(v, last);
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  for (std::size_t first = 0; first < seen.size();) {
+    const Index v = seen[first].first;
+    std::size_t end = first;
+    while (end < seen.size() && seen[end].first == v) ++end;
+    const std::size_t needed =
+        graph.role(v) == Role::landmark ? static_cast<std::size_t>(min_obs) : 1;
+    if (end - first >= needed) vertex_step[v] = seen[first + needed - 1].second;
+    first = end;
+  }
+}
+
+// Vertices that only edges without a pose reach enter with their first neighbour that is there.
+void spread(const Graph& graph, const PoseIndex& poses, std::vector<Index>& vertex_step) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Index e = 0; e < graph.edges(); ++e) {
+      if (last_pose(graph, poses, e) >= 0) continue;
+      Index first = -1;
+      for (Index v : graph.edge(e)) {
+        if (vertex_step[v] >= 0 && (first < 0 || vertex_step[v] < first)) first = vertex_step[v];
+      }
+      for (Index v : graph.edge(e)) {
+        if (first < 0 || vertex_step[v] >= 0) continue;
+        vertex_step[v] = first;
+        changed = true;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+PoseIndex pose_index(const Graph& graph) {
+  PoseIndex poses;
+  poses.index.assign(graph.vertices(), -1);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) != Role::pose) continue;
+    poses.index[v] = static_cast<Index>(poses.pose.size());
+    poses.pose.push_back(v);
+  }
+  return poses;
+}
+
+EdgeRole edge_role(const Graph& graph, const PoseIndex& poses, Index e) {
+  const auto vertices = graph.edge(e);
+  Index pose_count = 0;
+  Index landmark_count = 0;
+  for (Index v : vertices) {
+    pose_count += graph.role(v) == Role::pose;
+    landmark_count += graph.role(v) == Role::landmark;
+  }
+  if (pose_count + landmark_count < static_cast<Index>(vertices.size())) return EdgeRole::other;
+  if (pose_count > 0 && landmark_count > 0) return EdgeRole::observation;
+  if (pose_count != 2) return EdgeRole::other;
+  const Index gap = poses.index[vertices[0]] - poses.index[vertices[1]];
+  if (gap == 0) return EdgeRole::other;
+  return gap == 1 || gap == -1 ? EdgeRole::odometry : EdgeRole::loop_closure;
+}
+
+std::vector<EdgeRole> edge_roles(const Graph& graph, const PoseIndex& poses) {
+  std::vector<EdgeRole> roles(graph.edges());
+  for (Index e = 0; e < graph.edges(); ++e) roles[e] = edge_role(graph, poses, e);
+  return roles;
+}
+
+std::vector<Index> segments(const Graph& graph, const PoseIndex& poses) {
+  std::vector<bool> continued(poses.pose.size(), false);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (edge_role(graph, poses, e) != EdgeRole::odometry) continue;
+    const auto ends = graph.edge(e);
+    continued[std::max(poses.index[ends[0]], poses.index[ends[1]])] = true;
+  }
+  std::vector<Index> first;
+  for (Index k = 0; k < static_cast<Index>(poses.pose.size()); ++k) {
+    if (!continued[k]) first.push_back(k);
+  }
+  return first;
+}
+
+Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs) {
+  Replay result;
+  result.steps = static_cast<Index>(poses.pose.size());
+  result.vertex_step = poses.index;
+  enter_observed(graph, poses, min_obs, result.vertex_step);
+  spread(graph, poses, result.vertex_step);
+  result.edge_step.assign(graph.edges(), -1);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    Index step = -1;
+    bool all = true;
+    for (Index v : graph.edge(e)) {
+      all = all && result.vertex_step[v] >= 0;
+      step = std::max(step, result.vertex_step[v]);
+    }
+    if (all) result.edge_step[e] = step;
+  }
+  return result;
+}
+
+ByStep by_step(const std::vector<Index>& step, Index steps) {
+  ByStep result;
+  result.begin.assign(steps + 1, 0);
+  for (Index k : step) {
+    if (k >= 0) ++result.begin[k + 1];
+  }
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  result.items.resize(result.begin.back());
+  std::vector<Index> at(result.begin.begin(), result.begin.end() - 1);
+  for (Index i = 0; i < static_cast<Index>(step.size()); ++i) {
+    if (step[i] >= 0) result.items[at[step[i]]++] = i;
+  }
+  return result;
+}
+
+}  // namespace sg

@@ -1,0 +1,54 @@
+// Time in a graph (DESIGN: the model): poses in order of id, what an edge is to them, and the steps
+// of a replay.
+#pragma once
+
+#include <vector>
+
+#include "lib/graph/graph.h"
+
+namespace sg {
+
+enum class EdgeRole : std::uint8_t {
+  odometry,      // joins two poses of consecutive index
+  loop_closure,  // joins any other two poses
+  observation,   // joins poses and landmarks
+  other,         // unary edges, edges among landmarks, edges with a vertex that is neither
+};
+
+struct PoseIndex {
+  std::vector<Index> pose;   // vertex of every pose, by ascending id
+  std::vector<Index> index;  // pose index of every vertex, -1 of what is no pose
+};
+PoseIndex pose_index(const Graph& graph);
+
+EdgeRole edge_role(const Graph& graph, const PoseIndex& poses, Index e);
+std::vector<EdgeRole> edge_roles(const Graph& graph, const PoseIndex& poses);
+
+// First pose index of every trajectory segment, ascending. A segment ends where no odometry edge
+// leads on.
+std::vector<Index> segments(const Graph& graph, const PoseIndex& poses);
+
+// The replay. Step k adds pose k and every edge whose last pose is k; a landmark enters with the
+// step that gives it its min_obs-th observation and brings its earlier observations along. Vertices
+// and edges without a pose: a vertex enters with the first edge that reaches it, an edge without
+// pose enters as soon as all its vertices are there. Vertices or edges that never enter (a landmark
+// with fewer observations) have step -1.
+struct Replay {
+  Index steps = 0;                 // number of poses
+  std::vector<Index> vertex_step;  // n
+  std::vector<Index> edge_step;    // m
+};
+Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs = 1);
+
+// Edges by step: the edges of step k, ascending. (Counting sort of Replay::edge_step; edges of step
+// -1 are left out.)
+struct ByStep {
+  std::vector<Index> begin;  // steps + 1
+  std::vector<Index> items;
+  std::span<const Index> operator[](Index k) const {
+    return {items.data() + begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k])};
+  }
+};
+ByStep by_step(const std::vector<Index>& step, Index steps);
+
+}  // namespace sg
