@@ -24,14 +24,14 @@ std::string shell_quoted(const std::string& word) {
 
 void add_read_options(Command& command, ReadOptions& options) {
   command.app.add_option("--from", options.format, "Input format; told by content otherwise")
-      ->type_name("FORMAT");
+      ->option_text("FORMAT");
   command.app
       .add_option("--vertex", options.vertex_types,
                   "Teach a vertex tag; ROLE: pose, landmark, other")
-      ->type_name("TAG:DIM:ROLE")
+      ->option_text("TAG:DIM:ROLE")
       ->allow_extra_args(false);
   command.app.add_option("--edge", options.edge_types, "Teach an edge tag")
-      ->type_name("TAG:ARITY")
+      ->option_text("TAG:ARITY")
       ->allow_extra_args(false);
 }
 
@@ -123,7 +123,11 @@ void add_inputs(Command& command, Inputs& inputs) {
 Graph read(const Input& input) {
   if (input.path == "-" && ::isatty(STDIN_FILENO))
     throw usage_error("no graph: give a FILE or pipe one in");
-  return read_graph(input.path, input.options);
+  Graph graph = read_graph(input.path, input.options);
+  // Nothing at all is what a failed command upstream leaves, not a graph.
+  if (graph.vertices() == 0)
+    throw input_error(graph.file, 0, "there is no vertex and no edge in it");
+  return graph;
 }
 
 Graph read(const Inputs& inputs, const std::string& path) {
@@ -132,7 +136,7 @@ Graph read(const Inputs& inputs, const std::string& path) {
 
 void add_output(Command& command, OutputOptions& output) {
   command.app.add_option("-o,--output", output.path, "Write to FILE, whole or not at all")
-      ->type_name("FILE");
+      ->option_text("FILE");
 }
 
 void add_filter_output(Command& command, OutputOptions& output) {

@@ -48,9 +48,10 @@ void add_table(Command& command, TableOptions& options,
                const std::vector<std::string_view>& names) {
   command.app.add_option("-f,--fields", options.columns, "Columns: " + joined(names))
       ->delimiter(',')
-      ->type_name("NAME,...")
+      ->option_text("NAME,...")
       ->allow_extra_args(false);
-  command.app.add_flag("!--no-header", options.header, "No header line");
+  command.app.add_flag_callback(
+      "--no-header", [&options] { options.header = false; }, "No header line");
   command.app.add_flag("--json", options.json, "One JSON object a row");
 }
 
