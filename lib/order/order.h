@@ -1,0 +1,51 @@
+// Elimination orderings: one table that names them all.
+//
+// An ordering sees the block pattern of A (lib/graph/pattern.h) and returns a permutation of its
+// variables, the first to be eliminated first. It works on the block graph: variables weigh their
+// dimension where the method knows weights. Ties and the order of rows decide what a heuristic
+// gives, so they are pinned down: variables by ascending id, rows in file order; and the same
+// pattern, options and library version give the same order on any machine.
+//
+// A new ordering: a file lib/order/NAME.cpp, its declaration in methods.h, its row in order.cpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+// What an ordering may want to know beyond the pattern. Left empty, each field says nothing.
+struct OrderOptions {
+  std::uint64_t seed = 0;         // of methods that draw at random
+  std::vector<Index> last;        // variables to be eliminated after all others, in any order
+  std::vector<Index> file_order;  // all variables as the file lists them; empty: as numbered
+  std::vector<bool> landmark;     // of every variable; empty: none is
+};
+
+struct Ordering {
+  std::string_view name;
+  std::string_view description;  // one line, lower case, for --help and the manual
+  Order (*compute)(const Pattern&, const OrderOptions&);
+};
+
+// All orderings, in the order in which --help lists them.
+std::span<const Ordering> orderings();
+// Throws a usage Error that lists the names.
+const Ordering& find_ordering(std::string_view name);
+
+// The order of a method. `last` holds for every method: colamd and amd have it as a constraint and
+// take it into account; of the others the order is computed without it, and the variables of `last`
+// are then moved to its end, in their relative order.
+Order elimination_order(const Ordering& ordering, const Pattern& pattern,
+                        const OrderOptions& options = {});
+Order elimination_order(std::string_view name, const Pattern& pattern,
+                        const OrderOptions& options = {});
+
+// The options that a graph answers by itself: file_order and landmark.
+OrderOptions order_options(const Graph& graph, const GraphPattern& pattern);
+
+}  // namespace sg

@@ -1,0 +1,149 @@
+#include "lib/order/order.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/formats.h"
+#include "lib/elim/score.h"
+#include "lib/graph/error.h"
+
+namespace {
+
+using sg::Index;
+using sg::Order;
+using sg::Pattern;
+
+// A pattern of n variables with random rows of 0 to 4 of them: unary rows, rows that repeat, empty
+// rows, variables without a row, several parts.
+Pattern odd_pattern(std::mt19937& random, Index n) {
+  Pattern pattern;
+  for (Index j = 0; j < n; ++j) pattern.dim.push_back(1 + static_cast<int>(random() % 6));
+  pattern.row_begin.push_back(0);
+  const Index rows = n == 0 ? 1 : static_cast<Index>(random() % (2 * n + 1));
+  for (Index r = 0; r < rows; ++r) {
+    std::vector<Index> row;
+    for (auto k = random() % 5; k > 0 && n > 0; --k) {
+      const auto j = static_cast<Index>(random() % n);
+      if (std::find(row.begin(), row.end(), j) == row.end()) row.push_back(j);
+    }
+    pattern.row_variables.insert(pattern.row_variables.end(), row.begin(), row.end());
+    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+  }
+  return pattern;
+}
+
+bool is_permutation_of(const Order& order, Index n) {
+  Order sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  Order all(n);
+  for (Index j = 0; j < n; ++j) all[j] = j;
+  return sorted == all;
+}
+
+std::vector<Index> some_variables(std::mt19937& random, Index n) {
+  std::vector<Index> some;
+  for (Index j = 0; j < n; ++j) {
+    if (random() % 4 == 0) some.push_back(j);
+  }
+  return some;
+}
+
+}  // namespace
+
+TEST_CASE("every ordering is a permutation, the same each time", "[order]") {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Index n = trial < 20 ? trial / 4 : static_cast<Index>(random() % 60);
+    const Pattern pattern = odd_pattern(random, n);
+    for (const sg::Ordering& ordering : sg::orderings()) {
+      INFO(ordering.name << " on trial " << trial);
+      const Order order = sg::elimination_order(ordering, pattern);
+      REQUIRE(is_permutation_of(order, n));
+      REQUIRE(sg::elimination_order(ordering, pattern) == order);
+    }
+  }
+}
+
+TEST_CASE("variables constrained to the end stand at the end", "[order]") {
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto n = static_cast<Index>(random() % 40);
+    const Pattern pattern = odd_pattern(random, n);
+    sg::OrderOptions options;
+    options.last = some_variables(random, n);
+    if (trial % 10 == 0) options.last = sg::elimination_order("id", pattern);  // all of them
+    for (const sg::Ordering& ordering : sg::orderings()) {
+      INFO(ordering.name << " on trial " << trial);
+      const Order order = sg::elimination_order(ordering, pattern, options);
+      REQUIRE(is_permutation_of(order, n));
+      Order tail(order.end() - static_cast<std::ptrdiff_t>(options.last.size()), order.end());
+      std::sort(tail.begin(), tail.end());
+      REQUIRE(tail == options.last);
+    }
+  }
+}
+
+TEST_CASE("an unknown ordering is a usage error that names the known", "[order]") {
+  try {
+    sg::find_ordering("colmad");
+    FAIL("no error");
+  } catch (const sg::Error& error) {
+    CHECK(error.fault == sg::Fault::usage);
+    const std::string text = error.what();
+    CHECK(text.find("'colmad'") != text.npos);
+    for (const sg::Ordering& ordering : sg::orderings()) {
+      CHECK(text.find(ordering.name) != text.npos);
+    }
+  }
+}
+
+TEST_CASE("the random order depends on the seed alone", "[order]") {
+  std::mt19937 random(3);
+  const Pattern pattern = odd_pattern(random, 50);
+  sg::OrderOptions other;
+  other.seed = 1;
+  CHECK(sg::elimination_order("random", pattern) !=
+        sg::elimination_order("random", pattern, other));
+}
+
+TEST_CASE("order_options tells the file's order and the landmarks", "[order]") {
+  const sg::Graph graph = sg::read_graph_text(
+      sg::text_of("VERTEX_SE2 7 0 0 0\nVERTEX_XY 3 1 1\nVERTEX_SE2 1 0 0 0\nVERTEX_SE2 9 0 0 0\n"
+                  "FIX 1\n"),
+      "test");
+  const sg::GraphPattern pattern = sg::graph_pattern(graph);  // variables: 3, 7, 9
+  const sg::OrderOptions options = sg::order_options(graph, pattern);
+  CHECK(options.file_order == std::vector<Index>{1, 0, 2});
+  CHECK(options.landmark == std::vector<bool>{true, false, false});
+  CHECK(sg::elimination_order("file", pattern.pattern, options) == Order{1, 0, 2});
+  CHECK(sg::elimination_order("id", pattern.pattern, options) == Order{0, 1, 2});
+  CHECK(sg::elimination_order("landmarks-first", pattern.pattern, options) == Order{0, 1, 2});
+}
+
+// EC of public graphs under colamd: computed once by another implementation that calls CCOLAMD with
+// dense rows and columns kept, rows in file order, columns by ascending id.
+TEST_CASE("colamd gives the known EC on public graphs", "[order][data]") {
+  const char* data = std::getenv("SGTOOLS_DATA");
+  if (!data) {
+    std::cout << "skipped: colamd on public graphs (SGTOOLS_DATA is not set)\n";
+    return;
+  }
+  const std::pair<const char*, std::int64_t> known[] = {
+      {"tinyGrid3D.g2o", 13608},     {"smallGrid3D.g2o", 4664520}, {"CSAIL.g2o", 294408},
+      {"intel.g2o", 1281177},        {"kitti_00.g2o", 1177443},    {"manhattan.g2o", 7207461},
+      {"sphere2500.g2o", 372401928}, {"city10000.g2o", 112942080}, {"torus3D.g2o", 1231336944}};
+  for (const auto& [file, ec] : known) {
+    INFO(file);
+    const sg::Graph graph = sg::read_graph(std::string(data) + "/" + file);
+    const sg::GraphPattern pattern = sg::graph_pattern(graph);
+    const Order order = sg::elimination_order("colamd", pattern.pattern);
+    CHECK(sg::to_string(sg::elimination_complexity(pattern.pattern, order)) == std::to_string(ec));
+  }
+}
