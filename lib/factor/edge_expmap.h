@@ -1,0 +1,199 @@
+// Poses and cameras whose estimate E maps world to camera (space expmap), E := exp(step) E, step =
+// (rotation, translation). A line holds camera-to-world poses, hence c = z^-1 for relative poses.
+//   EDGE_SE3:EXPMAP                    e = log(E_j^-1 z^-1 E_i), rotation first
+//   EDGE_PROJECT_XYZ2UV:EXPMAP         e = z - pixel of E l, (u, v)
+//   EDGE_PROJECT_XYZ2UVU:EXPMAP        e = z - (u, v, u in a right camera at `baseline`)
+//   EDGE_SE3_PROJECT_XYZ:EXPMAP        as XYZ2UV with fx fy cx cy at the line's end
+//   EDGE_STEREO_SE3_PROJECT_XYZ:EXPMAP as XYZ2UVU with fx fy cx cy and bf = fx * baseline at the
+//   line's end
+// A step (w, t) moves E l by w x E l + t.
+#pragma once
+
+#include "lib/factor/estimate.h"
+#include "lib/factor/model.h"
+
+namespace sg {
+
+// g2o takes sin(angle) for the angle where cos(angle) > 0.99999, and its chi-square is the number
+// to give.
+inline Eigen::Vector3d g2o_log_so3(const Eigen::Quaterniond& q) {
+  const double cosine = 1 - 2 * q.vec().squaredNorm();
+  if (cosine > 0.99999) return 2 * q.w() * q.vec();
+  return log_so3(q);
+}
+
+// (translation, rotation) to (rotation, translation) and back.
+inline Vector6d swapped(const Vector6d& v) {
+  Vector6d result;
+  result << v.tail<3>(), v.head<3>();
+  return result;
+}
+inline Matrix6d swapped(const Matrix6d& m) {
+  Matrix6d result;
+  result << m.bottomRightCorner<3, 3>(), m.bottomLeftCorner<3, 3>(), m.topRightCorner<3, 3>(),
+      m.topLeftCorner<3, 3>();
+  return result;
+}
+
+struct EdgeSe3Expmap {
+  static constexpr std::string_view tag = "EDGE_SE3:EXPMAP";
+  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 7;
+  static constexpr std::array ends{Space::expmap, Space::expmap};
+  static constexpr std::array<ParamKind, 0> params{};
+
+  static bool prepare(const double* z, const double* const*, double* c) {
+    return from_file(Space::expmap, z, c);
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    const SE3 back = inverse(se3(x[1]));
+    const SE3 to = compose(back, se3(c));
+    const SE3 d = compose(to, se3(x[0]));
+    const Eigen::Vector3d w = g2o_log_so3(d.q);
+    Vector6d error;
+    error << inverse_left_jacobian_so3(w) * d.t, w;
+    Eigen::Map<Vector6d>{e} = swapped(error);
+    if (!J) return;
+    const Matrix6d slope = inverse_left_jacobian(error);
+    Eigen::Map<Matrix6d>{J[0]} = swapped(Matrix6d(slope * adjoint(to)));
+    Eigen::Map<Matrix6d>{J[1]} = swapped(Matrix6d(-slope * adjoint(back)));
+  }
+
+  static bool place(const double* const* x, const double* c, int end, double* out) {
+    const SE3 z = se3(c);
+    set_se3(end == 1 ? compose(z, se3(x[0])) : compose(inverse(z), se3(x[1])), out);
+    return true;
+  }
+};
+
+// A pinhole camera; `shift` = focal length * baseline separates the right image's u from the
+// left's.
+struct Pinhole {
+  double fx, fy, cx, cy, shift;
+};
+
+// The error of the first `dim` of (u, v, u_right), and its Jacobians in the landmark and the pose.
+template <int dim>
+void project(const double* const* x, const double* z, const Pinhole& camera, double* e,
+             double* const* J) {
+  using Slope = Eigen::Matrix<double, dim, 3>;
+  const SE3 pose = se3(x[1]);
+  const Eigen::Vector3d seen = act(pose, vector3(x[0]));
+  const double w = seen[2], u = seen[0] / w, v = seen[1] / w;
+  const Eigen::Vector3d pixel(camera.fx * u + camera.cx, camera.fy * v + camera.cy,
+                              camera.fx * u + camera.cx - camera.shift / w);
+  for (int k = 0; k < dim; ++k) e[k] = z[k] - pixel[k];
+  if (!J) return;
+  const Eigen::Matrix3d full{{-camera.fx / w, 0, camera.fx * u / w},
+                             {0, -camera.fy / w, camera.fy * v / w},
+                             {-camera.fx / w, 0, (camera.fx * u - camera.shift / w) / w}};
+  const Slope slope = full.topRows<dim>();
+  Eigen::Map<Slope>{J[0]} = slope * pose.q.toRotationMatrix();
+  Eigen::Map<Eigen::Matrix<double, dim, 6>> pose_jacobian(J[1]);
+  pose_jacobian.template leftCols<3>() = -slope * skew(seen);
+  pose_jacobian.template rightCols<3>() = slope;
+}
+
+// The landmark at depth w behind pixel (u, v).
+inline Eigen::Vector3d behind(const SE3& pose, const double* z, const Pinhole& camera, double w) {
+  const Eigen::Vector3d seen(w * (z[0] - camera.cx) / camera.fx, w * (z[1] - camera.cy) / camera.fy,
+                             w);
+  return act(inverse(pose), seen);
+}
+
+// The two planes through the camera's centre that a pixel's column and row are.
+inline Ray pixel_ray(const SE3& pose, const double* z, const Pinhole& camera) {
+  const Eigen::Vector3d axes[] = {{1, 0, -(z[0] - camera.cx) / camera.fx},
+                                  {0, 1, -(z[1] - camera.cy) / camera.fy}};
+  const SE3 to_world = inverse(pose);
+  Ray ray;
+  ray.rows = 2;
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector3d normal = to_world.q * axes[k].normalized();
+    ray.row[k] = {normal[0], normal[1], normal[2], normal.dot(to_world.t)};
+  }
+  Eigen::Map<Eigen::Vector3d>{ray.origin.data()} = to_world.t;
+  Eigen::Map<Eigen::Vector3d>{ray.ahead.data()} =
+      (behind(pose, z, camera, 1) - to_world.t).normalized();
+  return ray;
+}
+
+// c = z, then the camera. Tag: what differs between the types.
+template <class Type>
+struct PixelEdge {
+  static constexpr std::string_view tag = Type::tag;
+  static constexpr int dim = Type::dim, measurement = dim, extra = Type::extra, constants = dim + 5;
+  static constexpr std::array ends{Space::xyz, Space::expmap};
+  static constexpr auto params = Type::params;
+
+  static bool prepare(const double* z, const double* const* p, double* c) {
+    std::copy_n(z, dim, c);
+    const Pinhole camera = Type::camera(z + dim, p);
+    const double numbers[] = {camera.fx, camera.fy, camera.cx, camera.cy, camera.shift};
+    std::copy_n(numbers, 5, c + dim);
+    return true;
+  }
+
+  static Pinhole camera(const double* c) {
+    return {c[dim], c[dim + 1], c[dim + 2], c[dim + 3], c[dim + 4]};
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    project<dim>(x, c, camera(c), e, J);
+  }
+
+  static bool place(const double* const* x, const double* c, int end, double* out) {
+    if (dim < 3 || end != 0) return false;
+    const double w = camera(c).shift / (c[0] - c[dim - 1]);
+    if (!(w > 0) || !std::isfinite(w)) return false;
+    Eigen::Map<Eigen::Vector3d>{out} = behind(se3(x[1]), c, camera(c), w);
+    return true;
+  }
+
+  static Ray rays(const double* const* x, const double* c) {
+    return pixel_ray(se3(x[1]), c, camera(c));
+  }
+};
+
+inline Pinhole camera_of_parameters(const double* p) {
+  return {p[0], p[0], p[1], p[2], p[0] * p[3]};
+}
+
+struct XyzToUv {
+  static constexpr std::string_view tag = "EDGE_PROJECT_XYZ2UV:EXPMAP";
+  static constexpr int dim = 2, extra = 0;
+  static constexpr std::array params{ParamKind::camera_parameters};
+  static Pinhole camera(const double*, const double* const* p) {
+    return camera_of_parameters(p[0]);
+  }
+};
+struct XyzToUvu {
+  static constexpr std::string_view tag = "EDGE_PROJECT_XYZ2UVU:EXPMAP";
+  static constexpr int dim = 3, extra = 0;
+  static constexpr std::array params{ParamKind::camera_parameters};
+  static Pinhole camera(const double*, const double* const* p) {
+    return camera_of_parameters(p[0]);
+  }
+};
+struct XyzToPixel {
+  static constexpr std::string_view tag = "EDGE_SE3_PROJECT_XYZ:EXPMAP";
+  static constexpr int dim = 2, extra = 4;
+  static constexpr std::array<ParamKind, 0> params{};
+  static Pinhole camera(const double* extra, const double* const*) {
+    return {extra[0], extra[1], extra[2], extra[3], 0};
+  }
+};
+struct XyzToStereo {
+  static constexpr std::string_view tag = "EDGE_STEREO_SE3_PROJECT_XYZ:EXPMAP";
+  static constexpr int dim = 3, extra = 5;
+  static constexpr std::array<ParamKind, 0> params{};
+  static Pinhole camera(const double* extra, const double* const*) {
+    return {extra[0], extra[1], extra[2], extra[3], extra[4]};
+  }
+};
+using EdgeProjectXyz2Uv = PixelEdge<XyzToUv>;
+using EdgeProjectXyz2Uvu = PixelEdge<XyzToUvu>;
+using EdgeSe3ProjectXyz = PixelEdge<XyzToPixel>;
+using EdgeStereoSe3ProjectXyz = PixelEdge<XyzToStereo>;
+
+}  // namespace sg

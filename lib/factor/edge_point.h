@@ -1,0 +1,68 @@
+// Points and pairs of points:  EDGE_PRIOR_XY, EDGE_POINTXYZ_PRIOR  e = l - z;
+// EDGE_POINTXY, EDGE_POINTXYZ  e = (l_j - l_i) - z.
+#pragma once
+
+#include <algorithm>
+
+#include "lib/factor/estimate.h"
+#include "lib/factor/model.h"
+
+namespace sg {
+
+template <Space space>
+struct PointPrior {
+  static constexpr int dim = space_dim(space), measurement = dim, extra = 0, constants = dim;
+  static constexpr std::array ends{space};
+  static constexpr std::array<ParamKind, 0> params{};
+
+  static bool prepare(const double* z, const double* const*, double* c) {
+    std::copy_n(z, dim, c);
+    return true;
+  }
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    for (int k = 0; k < dim; ++k) e[k] = x[0][k] - c[k];
+    if (J) Eigen::Map<Eigen::Matrix<double, dim, dim>>(J[0]).setIdentity();
+  }
+  static bool place(const double* const*, const double* c, int, double* out) {
+    std::copy_n(c, dim, out);
+    return true;
+  }
+};
+
+template <Space space>
+struct PointPair {
+  static constexpr int dim = space_dim(space), measurement = dim, extra = 0, constants = dim;
+  static constexpr std::array ends{space, space};
+  static constexpr std::array<ParamKind, 0> params{};
+
+  static bool prepare(const double* z, const double* const*, double* c) {
+    std::copy_n(z, dim, c);
+    return true;
+  }
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    for (int k = 0; k < dim; ++k) e[k] = x[1][k] - x[0][k] - c[k];
+    if (!J) return;
+    using Square = Eigen::Matrix<double, dim, dim>;
+    Eigen::Map<Square>{J[0]} = -Square::Identity();
+    Eigen::Map<Square>{J[1]} = Square::Identity();
+  }
+  static bool place(const double* const* x, const double* c, int end, double* out) {
+    for (int k = 0; k < dim; ++k) out[k] = end == 1 ? x[0][k] + c[k] : x[1][k] - c[k];
+    return true;
+  }
+};
+
+struct EdgePriorXy : PointPrior<Space::xy> {
+  static constexpr std::string_view tag = "EDGE_PRIOR_XY";
+};
+struct EdgePointXyzPrior : PointPrior<Space::xyz> {
+  static constexpr std::string_view tag = "EDGE_POINTXYZ_PRIOR";
+};
+struct EdgePointXy : PointPair<Space::xy> {
+  static constexpr std::string_view tag = "EDGE_POINTXY";
+};
+struct EdgePointXyz : PointPair<Space::xyz> {
+  static constexpr std::string_view tag = "EDGE_POINTXYZ";
+};
+
+}  // namespace sg

@@ -1,0 +1,155 @@
+// Relative and absolute poses in space.  e = (translation, vector part of the quaternion with w >=
+// 0)  of
+//   EDGE_SE3:QUAT    z^-1 x_i^-1 x_j
+//   EDGE_SE3_OFFSET  z^-1 (x_i p_i)^-1 (x_j p_j)       p: sensor offsets, parameters
+//   EDGE_SE3_PRIOR   z^-1 x p
+// and EDGE_SE3_XYZ_PRIOR  e = translation of x - z      (g2o leaves its offset out of account, and
+// so do we).
+//
+// A step d = (u, v) of a pose in the middle, a d b, moves the result's translation by R_a (u - 2
+// [t_b]x v) and its quaternion by a (0, v) b; a step of an inverse pose, a d^-1 b, by as much with
+// the other sign.
+#pragma once
+
+#include "lib/factor/estimate.h"
+#include "lib/factor/model.h"
+
+namespace sg {
+
+inline bool prepare_se3(const double* numbers, double* c) {
+  SE3 z = se3(numbers);
+  if (z.q.norm() < 1e-6) return false;
+  z.q.normalize();
+  set_se3(z, c);
+  return true;
+}
+
+inline double positive_w(const SE3& a) {
+  return a.q.w() < 0 ? -1 : 1;
+}
+
+inline void set_error(const SE3& d, double* e) {
+  Eigen::Map<Eigen::Vector3d>{e} = d.t;
+  Eigen::Map<Eigen::Vector3d>{e + 3} = positive_w(d) * d.q.vec();
+}
+
+// The vector part of a (0, v) b is this times v.
+inline Eigen::Matrix3d vector_part(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  return (a.w() * identity + skew(a.vec())) * (b.w() * identity - skew(b.vec())) -
+         a.vec() * b.vec().transpose();
+}
+
+// Jacobian of the error of a d b in the step d, times `sign`.
+inline void set_jacobian(const SE3& a, const SE3& b, double sign, double* J) {
+  const Eigen::Matrix3d R = sign * a.q.toRotationMatrix();
+  const double flip = a.q.w() * b.q.w() - a.q.vec().dot(b.q.vec()) < 0 ? -sign : sign;
+  Eigen::Map<Matrix6d> result(J);
+  result.topLeftCorner<3, 3>() = R;
+  result.topRightCorner<3, 3>() = -2 * R * skew(b.t);
+  result.bottomLeftCorner<3, 3>().setZero();
+  result.bottomRightCorner<3, 3>() = flip * vector_part(a.q, b.q);
+}
+
+struct EdgeSe3Quat {
+  static constexpr std::string_view tag = "EDGE_SE3:QUAT";
+  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 7;
+  static constexpr std::array ends{Space::se3, Space::se3};
+  static constexpr std::array<ParamKind, 0> params{};
+
+  static bool prepare(const double* z, const double* const*, double* c) {
+    return prepare_se3(z, c);
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    const SE3 a = inverse(se3(c));
+    const SE3 b = between(se3(x[0]), se3(x[1]));
+    const SE3 d = compose(a, b);
+    set_error(d, e);
+    if (!J) return;
+    set_jacobian(a, b, -1, J[0]);
+    set_jacobian(d, SE3{}, 1, J[1]);
+  }
+
+  static bool place(const double* const* x, const double* c, int end, double* out) {
+    const SE3 z = se3(c);
+    set_se3(end == 1 ? compose(se3(x[0]), z) : compose(se3(x[1]), inverse(z)), out);
+    return true;
+  }
+};
+
+struct EdgeSe3Offset {
+  static constexpr std::string_view tag = "EDGE_SE3_OFFSET";
+  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 14;
+  static constexpr std::array ends{Space::se3, Space::se3};
+  static constexpr std::array params{ParamKind::se3_offset, ParamKind::se3_offset};
+
+  // c = (p_i z), p_j
+  static bool prepare(const double* z, const double* const* p, double* c) {
+    if (!prepare_se3(z, c)) return false;
+    set_se3(compose(se3(p[0]), se3(c)), c);
+    set_se3(se3(p[1]), c + 7);
+    return true;
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    const SE3 a = inverse(se3(c)), to = se3(c + 7);
+    const SE3 motion = between(se3(x[0]), se3(x[1]));
+    const SE3 b = compose(motion, to);
+    set_error(compose(a, b), e);
+    if (!J) return;
+    set_jacobian(a, b, -1, J[0]);
+    set_jacobian(compose(a, motion), to, 1, J[1]);
+  }
+
+  static bool place(const double* const* x, const double* c, int end, double* out) {
+    const SE3 motion = compose(se3(c), inverse(se3(c + 7)));
+    set_se3(end == 1 ? compose(se3(x[0]), motion) : compose(se3(x[1]), inverse(motion)), out);
+    return true;
+  }
+};
+
+struct EdgeSe3Prior {
+  static constexpr std::string_view tag = "EDGE_SE3_PRIOR";
+  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 14;
+  static constexpr std::array ends{Space::se3};
+  static constexpr std::array params{ParamKind::se3_offset};
+
+  // c = z, p
+  static bool prepare(const double* z, const double* const* p, double* c) {
+    set_se3(se3(p[0]), c + 7);
+    return prepare_se3(z, c);
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    const SE3 a = between(se3(c), se3(x[0])), p = se3(c + 7);
+    set_error(compose(a, p), e);
+    if (J) set_jacobian(a, p, 1, J[0]);
+  }
+
+  static bool place(const double* const*, const double* c, int, double* out) {
+    set_se3(compose(se3(c), inverse(se3(c + 7))), out);
+    return true;
+  }
+};
+
+struct EdgeSe3XyzPrior {
+  static constexpr std::string_view tag = "EDGE_SE3_XYZ_PRIOR";
+  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 3;
+  static constexpr std::array ends{Space::se3};
+  static constexpr std::array params{ParamKind::se3_offset};
+
+  static bool prepare(const double* z, const double* const*, double* c) {
+    std::copy_n(z, 3, c);
+    return true;
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    for (int k = 0; k < 3; ++k) e[k] = x[0][k] - c[k];
+    if (!J) return;
+    Eigen::Map<Eigen::Matrix<double, 3, 6>>(J[0]) << se3(x[0]).q.toRotationMatrix(),
+        Eigen::Matrix3d::Zero();
+  }
+};
+
+}  // namespace sg

@@ -1,0 +1,113 @@
+// Landmarks seen from poses in space, through a sensor at offset p: with l' = (x p)^-1 l and the
+// camera matrix K
+//   EDGE_SE3_TRACKXYZ       e = l' - z
+//   EDGE_PROJECT_DISPARITY  e = (u/w, v/w, 1/w) - z,  (u, v, w) = K l'
+//   EDGE_PROJECT_DEPTH      e = (u/w, v/w, w) - z
+// A step (u, v) of x moves x^-1 l by -u + 2 [x^-1 l]x v.
+#pragma once
+
+#include "lib/factor/estimate.h"
+#include "lib/factor/model.h"
+
+namespace sg {
+
+// x^-1 l.
+inline Eigen::Vector3d in_frame(const double* x, const double* landmark) {
+  const SE3 pose = se3(x);
+  return pose.q.conjugate() * (vector3(landmark) - pose.t);
+}
+
+// Jacobians of f((x p)^-1 l), with `slope` the Jacobian of f and `local` = x^-1 l.
+inline void set_point_jacobians(const Eigen::Matrix3d& slope, const double* x, const SE3& p,
+                                const Eigen::Vector3d& local, double* const* J) {
+  const Eigen::Matrix3d turned = slope * p.q.conjugate().toRotationMatrix();
+  Eigen::Map<Eigen::Matrix<double, 3, 6>> pose(J[0]);
+  pose.leftCols<3>() = -turned;
+  pose.rightCols<3>() = 2 * turned * skew(local);
+  Eigen::Map<Eigen::Matrix3d>{J[1]} = turned * se3(x).q.conjugate().toRotationMatrix();
+}
+
+struct EdgeSe3TrackXyz {
+  static constexpr std::string_view tag = "EDGE_SE3_TRACKXYZ";
+  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 10;
+  static constexpr std::array ends{Space::se3, Space::xyz};
+  static constexpr std::array params{ParamKind::se3_offset};
+
+  // c = z, p
+  static bool prepare(const double* z, const double* const* p, double* c) {
+    std::copy_n(z, 3, c);
+    set_se3(se3(p[0]), c + 3);
+    return true;
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    const SE3 p = se3(c + 3);
+    const Eigen::Vector3d local = in_frame(x[0], x[1]);
+    Eigen::Map<Eigen::Vector3d>{e} = p.q.conjugate() * (local - p.t) - vector3(c);
+    if (J) set_point_jacobians(Eigen::Matrix3d::Identity(), x[0], p, local, J);
+  }
+
+  static bool place(const double* const* x, const double* c, int end, double* out) {
+    if (end != 1) return false;
+    Eigen::Map<Eigen::Vector3d>{out} = act(se3(x[0]), act(se3(c + 3), vector3(c)));
+    return true;
+  }
+};
+
+// What a pixel (u, v) and a depth say together. Third: the third number of the measurement as a
+// function of depth, its derivative, and its inverse.
+template <class Third>
+struct EdgePixelDepth {
+  static constexpr std::string_view tag = Third::tag;
+  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 14;
+  static constexpr std::array ends{Space::se3, Space::xyz};
+  static constexpr std::array params{ParamKind::camera_calibration};
+
+  // c = z, p, fx fy cx cy
+  static bool prepare(const double* z, const double* const* p, double* c) {
+    std::copy_n(z, 3, c);
+    set_se3(se3(p[0]), c + 3);
+    std::copy_n(p[0] + 7, 4, c + 10);
+    return true;
+  }
+
+  static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
+    const SE3 p = se3(c + 3);
+    const double fx = c[10], fy = c[11], cx = c[12], cy = c[13];
+    const Eigen::Vector3d local = in_frame(x[0], x[1]);
+    const Eigen::Vector3d seen = p.q.conjugate() * (local - p.t);
+    const double w = seen[2], u = seen[0] / w, v = seen[1] / w;
+    e[0] = fx * u + cx - c[0];
+    e[1] = fy * v + cy - c[1];
+    e[2] = Third::of_depth(w) - c[2];
+    if (!J) return;
+    const Eigen::Matrix3d slope{
+        {fx / w, 0, -fx * u / w}, {0, fy / w, -fy * v / w}, {0, 0, Third::slope(w)}};
+    set_point_jacobians(slope, x[0], p, local, J);
+  }
+
+  static bool place(const double* const* x, const double* c, int end, double* out) {
+    const double w = Third::to_depth(c[2]);
+    if (end != 1 || !std::isfinite(w)) return false;
+    const Eigen::Vector3d seen(w * (c[0] - c[12]) / c[10], w * (c[1] - c[13]) / c[11], w);
+    Eigen::Map<Eigen::Vector3d>{out} = act(se3(x[0]), act(se3(c + 3), seen));
+    return true;
+  }
+};
+
+struct DisparityOfDepth {
+  static constexpr std::string_view tag = "EDGE_PROJECT_DISPARITY";
+  static double of_depth(double w) { return 1 / w; }
+  static double slope(double w) { return -1 / (w * w); }
+  static double to_depth(double disparity) { return 1 / disparity; }
+};
+struct DepthOfDepth {
+  static constexpr std::string_view tag = "EDGE_PROJECT_DEPTH";
+  static double of_depth(double w) { return w; }
+  static double slope(double) { return 1; }
+  static double to_depth(double depth) { return depth; }
+};
+using EdgeProjectDisparity = EdgePixelDepth<DisparityOfDepth>;
+using EdgeProjectDepth = EdgePixelDepth<DepthOfDepth>;
+
+}  // namespace sg

@@ -1,0 +1,33 @@
+// Initial estimates where the file has none, or where they are to be ignored.
+//
+// Poses are composed along edges between poses, the predecessor's odometry first; a component
+// starts at its first pose's prior, or at the origin. A landmark stands where its first observation
+// that tells puts it; from bearings and pixels alone it is triangulated: the point with the least
+// sum of squared distances to the lines of sight (Hartley, Sturm: Triangulation, 1997, the linear
+// method on normalized rays); a single line of sight, or nearly parallel ones, put it at a range of
+// `lone_range` from the first observer.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lib/factor/problem.h"
+
+namespace sg {
+
+constexpr double lone_range = 2;
+
+// Estimates of every vertex, from the edges alone. FIXed vertices keep their line's estimate if
+// they have one.
+Values initial_values(const Problem& problem);
+
+// The file's estimates where it has VERTEX lines, initial_values otherwise: where every solver
+// starts.
+Values start_values(const Problem& problem);
+
+// Places vertex v by those of `edges` (edges at v, in order of preference) whose other ends are
+// placed. False, and values untouched, where none of them tells.
+bool place_vertex(const Problem& problem, Index v, std::span<const Index> edges,
+                  const std::vector<bool>& placed, Values& values);
+
+}  // namespace sg

@@ -1,0 +1,47 @@
+// The linearized system: the step d that minimizes
+//     sum over rows r of  | A_r d - b_r |^2,       A_r = U J,  b_r = -U e,
+// with the whitened Jacobian and error of factor r (model.h) at the current estimate. It is kept
+// factor by factor in flat arrays: nothing is allocated per factor, and linearizing again writes
+// over the same numbers.
+//
+// The block of row r is the matrix [A_r b_r], by column, of height[r] rows; its columns are those
+// of the variables pattern.row(r) in that order (dim of each), then b_r. Its Gram matrix, [A b]' [A
+// b], is the factor's share of the normal equations.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lib/factor/kernel.h"
+#include "lib/factor/problem.h"
+
+namespace sg {
+
+struct LinearSystem {
+  const Pattern* pattern = nullptr;  // of the problem it was made for: variables and rows
+  std::vector<int> height;           // rows of every block
+  std::vector<Offset> begin;         // of every block in numbers, and the end
+  std::vector<double> numbers;
+
+  const double* block(Index r) const { return numbers.data() + begin[r]; }
+  double* block(Index r) { return numbers.data() + begin[r]; }
+};
+
+// Its structure, with all numbers zero.
+LinearSystem make_linear_system(const Problem& problem);
+
+// Row r of the system at `values`: writes its block, height x (columns + 1) numbers. Rows beyond
+// the edges: the gauge's. Thread-safe; allocates nothing.
+void linearize_row(const Problem& problem, const Values& values, const Kernel& kernel, Index r,
+                   double* block);
+
+// All rows, in parallel.
+void linearize(const Problem& problem, const Values& values, const Kernel& kernel,
+               LinearSystem& system);
+
+// e' W e of one edge, and its sum over all edges (with the kernel: of rho), those between fixed
+// vertices included.
+double edge_chi2(const Problem& problem, const Values& values, Index e);
+double chi2(const Problem& problem, const Values& values, const Kernel& kernel = {});
+
+}  // namespace sg

@@ -1,0 +1,83 @@
+// Measurement models: what an edge says of its vertices.
+//
+// A factor's error e(x) has `dim` numbers and is g2o's own for the tag, so that its chi-square
+//     chi2 = sum over edges of e' W e,        W the information of the edge's line,
+// is the number that g2o prints. With W = U' U the whitened error is U e. Jacobians are taken with
+// respect to the steps of space.h.
+//
+// A type is a struct in a header of its own (edge_se2.h is the pattern to follow) and a row in
+// models.cpp:
+//     tag          the edge's
+//     dim          of the error
+//     measurement  numbers of the measurement, before the information matrix
+//     extra        numbers behind the information matrix
+//     constants    numbers that a factor keeps in memory
+//     ends         the spaces of its vertices, in file order
+//     params       the kinds of its parameters, in file order
+//     prepare(z, params, c)     measurement, extra numbers and parameters to the constants c
+//     evaluate(x, c, e, J)      error and, unless J is null, the Jacobian J[k] (dim x space_dim, by
+//     column) of vertex k place(x, c, end, out)     optional: the estimate of vertex `end` that
+//     makes the error 0, from the other's;
+//                               false where the edge does not tell
+//     rays(x, c, rows)          optional: how a landmark lies on a line: rows of a linear system in
+//     its coordinates
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "lib/factor/space.h"
+
+namespace sg {
+
+constexpr int max_ends = 2;
+constexpr int max_dim = 6;                                     // of an error, and of a vertex
+constexpr int max_size = 7;                                    // of an estimate
+constexpr int max_block = max_dim * (max_ends * max_dim + 1);  // numbers of a linearized factor
+
+enum class ParamKind { se2_offset, se3_offset, camera_calibration, camera_parameters };
+// The numbers that every parameter of this kind starts with.
+constexpr int param_size(ParamKind kind) {
+  return std::array{3, 7, 11, 4}[static_cast<int>(kind)];
+}
+// Whether a parameter line of this tag can serve as one (a stereo camera is a camera, a camera has
+// an offset).
+bool serves_as(ParamKind kind, std::string_view param_tag);
+std::string_view name(ParamKind kind);
+
+// Linear constraints on a landmark p: row' [p; -1] = 0 with |row of p| = 1, at most two from an
+// observation; `ahead` points from the observer along the ray, of unit length, `origin` is where it
+// starts.
+struct Ray {
+  int rows = 0;
+  std::array<std::array<double, 4>, 2> row{};
+  std::array<double, 3> origin{};
+  std::array<double, 3> ahead{};
+};
+
+struct Model {
+  std::string_view tag;
+  int dim;
+  int measurement;
+  int extra;
+  int constants;
+  int arity;
+  std::array<Space, max_ends> ends;
+  std::span<const ParamKind> params;
+
+  // False for a measurement that is none (a quaternion of length zero).
+  bool (*prepare)(const double* z, const double* const* params, double* c);
+  // r := U e; U is dim x dim, by column.
+  void (*error)(const double* const* x, const double* c, const double* U, double* r);
+  // block := [U J_0 ... U J_k  -U e], by column: dim x (sum of the vertices' dimensions + 1).
+  void (*linearize)(const double* const* x, const double* c, const double* U, double* block);
+  bool (*place)(const double* const* x, const double* c, int end,
+                double* out);                            // null where there is none
+  Ray (*rays)(const double* const* x, const double* c);  // null where there is none
+};
+
+std::span<const Model> models();
+const Model* find_model(std::string_view edge_tag);
+
+}  // namespace sg

@@ -1,0 +1,248 @@
+#include "lib/factor/problem.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <unordered_map>
+
+#include "lib/factor/estimate.h"
+#include "lib/factor/initialize.h"
+#include "lib/factor/whitening.h"
+#include "lib/graph/error.h"
+#include "lib/graph/tokens.h"
+
+namespace sg {
+namespace {
+
+std::string quoted(std::string_view text) {
+  return std::string(text);
+}
+
+struct ParsedParam {
+  std::string_view tag;
+  Offset line;
+  std::vector<double> numbers;
+};
+using ParamTable = std::unordered_map<Id, ParsedParam>;
+
+void check_finite(const Graph& graph, Offset line, const std::vector<double>& numbers) {
+  for (double number : numbers) {
+    if (!std::isfinite(number)) throw error_at(graph, line, "a number is not finite");
+  }
+}
+
+ParamTable parse_params(const Graph& graph) {
+  ParamTable table;
+  for (const Param& param : graph.params) {
+    auto text = line_at(graph, param.line);
+    ParsedParam parsed{next_word(text), param.line, {}};
+    param_numbers(graph, param, parsed.numbers);
+    check_finite(graph, param.line, parsed.numbers);
+    table[param.id] = std::move(parsed);
+  }
+  return table;
+}
+
+// The pose that a parameter starts with is brought to unit length: text rounds it.
+void normalize_param(const Graph& graph, ParamKind kind, ParsedParam& param) {
+  if (static_cast<int>(param.numbers.size()) < param_size(kind)) {
+    throw error_at(graph, param.line, quoted(param.tag) + " has too few numbers");
+  }
+  if (kind != ParamKind::se3_offset && kind != ParamKind::camera_calibration) return;
+  if (!from_file(Space::se3, std::vector<double>(param.numbers).data(), param.numbers.data())) {
+    throw error_at(graph, param.line, "a quaternion has length zero");
+  }
+}
+
+// What make_problem goes through the edges with.
+struct Builder {
+  const Graph& graph;
+  Problem& problem;
+  ParamTable params;
+  std::vector<double> numbers;        // of the line at hand
+  std::vector<double> last_triangle;  // of the last information matrix, to store equal ones once
+};
+
+std::array<const double*, max_ends> find_params(Builder& builder, Index e, const Model& model) {
+  std::array<const double*, max_ends> found{};
+  const Graph& graph = builder.graph;
+  const auto ids = edge_params(graph, e);
+  for (std::size_t k = 0; k < model.params.size(); ++k) {
+    const auto entry = builder.params.find(ids[k]);
+    const ParamKind kind = model.params[k];
+    if (entry == builder.params.end() || !serves_as(kind, entry->second.tag)) {
+      throw error_at(graph, graph.edge_line[e],
+                     quoted(model.tag) + " wants a " + quoted(name(kind)) + " line with the id " +
+                         std::to_string(ids[k]));
+    }
+    normalize_param(graph, kind, entry->second);
+    found[k] = entry->second.numbers.data();
+  }
+  return found;
+}
+
+void check_ends(const Builder& builder, Index e, const Model& model) {
+  const auto vertices = builder.graph.edge(e);
+  for (int k = 0; k < model.arity; ++k) {
+    const Index v = vertices[k];
+    if (builder.problem.space[v] == model.ends[k]) continue;
+    throw error_at(builder.graph, builder.graph.edge_line[e],
+                   quoted(model.tag) + " joins vertex " + std::to_string(builder.graph.id[v]) +
+                       ", a " + builder.graph.type_of_vertex(v).tag + ", where it wants a " +
+                       quoted(name(model.ends[k])));
+  }
+}
+
+// Where the whitening matrix of this information stands.
+Index store_whitening(Builder& builder, Index e, std::span<const double> triangle, int dim) {
+  Problem& problem = builder.problem;
+  if (!std::ranges::equal(triangle, builder.last_triangle)) {
+    problem.whitening.resize(problem.whitening.size() + dim * dim);
+    if (!whitening(triangle, dim, &*problem.whitening.end() - dim * dim)) {
+      throw error_at(builder.graph, builder.graph.edge_line[e],
+                     "the information matrix is not positive semidefinite");
+    }
+    builder.last_triangle.assign(triangle.begin(), triangle.end());
+  }
+  return static_cast<Index>(problem.whitening.size()) - dim * dim;
+}
+
+void add_factor(Builder& builder, Index e) {
+  const Graph& graph = builder.graph;
+  const Offset line = graph.edge_line[e];
+  const EdgeType& type = graph.type_of_edge(e);
+  const Model* model = find_model(type.tag);
+  if (!model) throw error_at(graph, line, type.tag + " has no measurement model here");
+  check_ends(builder, e, *model);
+
+  auto& numbers = builder.numbers;
+  edge_numbers(graph, e, numbers);
+  const int triangle = model->dim * (model->dim + 1) / 2;
+  const int wanted = model->measurement + triangle + model->extra;
+  if (static_cast<int>(numbers.size()) < wanted) {
+    throw error_at(graph, line,
+                   type.tag + " wants " + std::to_string(wanted) + " numbers, not " +
+                       std::to_string(numbers.size()));
+  }
+  check_finite(graph, line, numbers);
+
+  Problem& problem = builder.problem;
+  const std::span<const double> information(numbers.data() + model->measurement, triangle);
+  problem.whitening_at.push_back(store_whitening(builder, e, information, model->dim));
+  // What the model keeps: the measurement and the numbers behind the information, together.
+  numbers.erase(numbers.begin() + model->measurement,
+                numbers.begin() + model->measurement + triangle);
+  problem.model.push_back(model);
+  problem.constants_at.push_back(static_cast<Index>(problem.constants.size()));
+  problem.constants.resize(problem.constants.size() + model->constants);
+  double* const constants = problem.constants.data() + problem.constants_at.back();
+  if (!model->prepare(numbers.data(), find_params(builder, e, *model).data(), constants)) {
+    throw error_at(graph, line, "a quaternion has length zero");
+  }
+}
+
+void lay_out_values(Problem& problem) {
+  const Graph& graph = *problem.graph;
+  problem.value_at.push_back(0);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const auto space = find_space(graph.type_of_vertex(v).tag);
+    if (!space) {
+      throw error_at(graph, graph.vertex_line[v],
+                     graph.type_of_vertex(v).tag + " has no measurement model here");
+    }
+    problem.space.push_back(*space);
+    problem.value_at.push_back(problem.value_at.back() + space_size(*space));
+  }
+}
+
+// A unary edge that measures as much as its pose has dimensions.
+bool holds_a_pose(const Problem& problem, Index e) {
+  const auto ends = problem.graph->edge(e);
+  return ends.size() == 1 && problem.graph->role(ends[0]) == Role::pose &&
+         problem.model[e]->dim == problem.graph->dim(ends[0]);
+}
+
+// The variable to hold, -1 if something holds the graph already.
+Index free_gauge(const Problem& problem) {
+  const Graph& graph = *problem.graph;
+  if (!graph.fix_lines.empty()) return -1;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (holds_a_pose(problem, e)) return -1;
+  }
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) == Role::pose) return problem.variables.vertex_variable[v];
+  }
+  return graph.vertices() > 0 ? 0 : -1;
+}
+
+void lay_out_variables(Problem& problem) {
+  problem.variables = graph_pattern(*problem.graph);
+  problem.held = free_gauge(problem);
+  Pattern& pattern = problem.variables.pattern;
+  if (problem.held >= 0) {
+    pattern.row_variables.push_back(problem.held);
+    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+  }
+  problem.step_at.push_back(0);
+  for (int dim : pattern.dim) problem.step_at.push_back(problem.step_at.back() + dim);
+}
+
+}  // namespace
+
+Problem make_problem(const Graph& graph) {
+  Problem problem;
+  problem.graph = &graph;
+  lay_out_values(problem);
+  Builder builder{graph, problem, parse_params(graph), {}, {}};
+  for (Index e = 0; e < graph.edges(); ++e) add_factor(builder, e);
+  lay_out_variables(problem);
+  return problem;
+}
+
+Values file_values(const Problem& problem) {
+  const Graph& graph = *problem.graph;
+  Values values(problem.value_at.back());
+  std::vector<double> numbers;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const Space space = problem.space[v];
+    vertex_numbers(graph, v, numbers);
+    check_finite(graph, graph.vertex_line[v], numbers);
+    if (static_cast<int>(numbers.size()) < space_size(space)) {
+      throw error_at(graph, graph.vertex_line[v],
+                     graph.type_of_vertex(v).tag + " wants " + std::to_string(space_size(space)) +
+                         " numbers, not " + std::to_string(numbers.size()));
+    }
+    if (!from_file(space, numbers.data(), values.data() + problem.value_at[v])) {
+      throw error_at(graph, graph.vertex_line[v], "a quaternion has length zero");
+    }
+  }
+  return values;
+}
+
+void retract(const Problem& problem, const std::vector<double>& step, Values& values) {
+  const auto& vertex = problem.variables.variable_vertex;
+  for (std::size_t j = 0; j < vertex.size(); ++j) {
+    const Index v = vertex[j];
+    retract(problem.space[v], step.data() + problem.step_at[j],
+            values.data() + problem.value_at[v]);
+  }
+}
+
+std::vector<double> estimate_numbers(const Problem& problem, const Values& values, Index v) {
+  std::vector<double> numbers(space_size(problem.space[v]));
+  to_file(problem.space[v], values.data() + problem.value_at[v], numbers.data());
+  return numbers;
+}
+
+std::string estimate_text(const Problem& problem, const Values& values, Index v) {
+  std::string text;
+  for (double number : estimate_numbers(problem, values, v)) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+    if (!text.empty()) text += ' ';
+    text.append(buffer, end);
+  }
+  return text;
+}
+
+}  // namespace sg

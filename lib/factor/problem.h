@@ -1,0 +1,59 @@
+// A graph's numbers, parsed once and laid out flat: what every factor measured, and the estimates.
+//
+// An estimate vector (Values) holds every vertex of the graph, fixed ones included, in the graph's
+// vertex order. Variables are graph_pattern's: the vertices that are not fixed, by ascending id.
+// Factors are the graph's edges, in file order.
+//
+// Gauge. Relative measurements leave the whole free to move. Unless something holds it (a FIX line,
+// or a unary edge that measures all of a pose), the first pose is held: it stays a variable of the
+// system, so that the structure (and its elimination complexity) is the graph's own, but its
+// columns are zero and an extra last row says that its step is zero. g2o decides by the same rule,
+// and then fixes a vertex of its choice.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/factor/model.h"
+#include "lib/graph/graph.h"
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+using Values = std::vector<double>;
+
+struct Problem {
+  const Graph* graph = nullptr;  // outlives the problem
+
+  std::vector<Space> space;     // n: of every vertex
+  std::vector<Index> value_at;  // n + 1: where its estimate starts in Values
+
+  std::vector<const Model*> model;  // m: of every edge
+  std::vector<Index> constants_at;  // m, into constants
+  std::vector<double> constants;
+  std::vector<Index> whitening_at;  // m, into whitening; equal ones in a row are stored once
+  std::vector<double> whitening;    // U with W = U' U, dim x dim by column
+
+  GraphPattern variables;      // pattern's rows: the edges, then the gauge's if there is one
+  Index held = -1;             // the variable that the gauge's row holds, -1 without one
+  std::vector<Index> step_at;  // number of variables + 1: where a variable's part of a step starts
+};
+
+// Throws an input Error at its line for: an edge or vertex type without a measurement model, an
+// edge that joins other vertices than its type does, a parameter that is missing or of the wrong
+// kind, numbers that are missing, infinite or not a number, an information matrix that is not
+// positive semidefinite, a quaternion of length zero.
+Problem make_problem(const Graph& graph);
+
+// The estimates of the file's VERTEX lines; of an edges-only file: initial_values (initialize.h).
+Values file_values(const Problem& problem);
+
+// values (+) step, variable by variable.
+void retract(const Problem& problem, const std::vector<double>& step, Values& values);
+
+// The estimate's numbers as a VERTEX line writes them, and as text: separated by blanks, the
+// shortest that read back as the same doubles.
+std::vector<double> estimate_numbers(const Problem& problem, const Values& values, Index v);
+std::string estimate_text(const Problem& problem, const Values& values, Index v);
+
+}  // namespace sg
