@@ -4,21 +4,12 @@
 #include <limits>
 #include <numeric>
 
-#include "lib/graph/tokens.h"
+#include "formats/line.h"
 
 namespace sg {
 namespace {
 
 constexpr std::string_view order_comment = "# sg-order: ";
-
-// A line that has a defect: caught line by line, so that reading can go on.
-struct BadLine {
-  std::string cause;
-};
-
-std::string quoted(std::string_view word) {
-  return "'" + std::string(word) + "'";
-}
 
 // Ids fit 32 bits nearly always. The few that don't wait in `big`, and their place holds -1 - their
 // number there.
@@ -53,15 +44,6 @@ struct Parser {
 
   explicit Parser(const Complaint& complaint_) : complaint(complaint_) {}
 };
-
-Id read_id(std::string_view& line, std::string_view what) {
-  const auto word = next_word(line);
-  if (word.empty()) throw BadLine{"the line ends before " + std::string(what)};
-  if (const auto id = parse<Id>(word); id && *id >= 0) return *id;
-  const bool digits = word.find_first_not_of("0123456789") == word.npos;
-  throw BadLine{quoted(word) + (digits ? " is beyond 64 bits, too large for " : " is not ") +
-                std::string(what)};
-}
 
 // Checks that the rest of the line is numbers, `needed` of them or more (-1: any count).
 void check_numbers(std::string_view line, int needed, std::string_view tag) {

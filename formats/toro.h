@@ -1,5 +1,12 @@
-// TORO's text format: VERTEX2, EDGE2, VERTEX3, EDGE3; information in TORO's own order, rotations as
-// roll, pitch, yaw.
+// TORO's text format:
+//
+//   VERTEX2 i     x y theta
+//   EDGE2   i j   x y theta              w11 w12 w22 w33 w13 w23   (in TORO's own order)
+//   VERTEX3 i     x y z roll pitch yaw
+//   EDGE3   i j   x y z roll pitch yaw   w11 ... w66               (the upper triangle, row by row)
+//
+// w is the information. Rotations and their information: euler.h. Other tags are g2o's.
+// Source: TORO's own loader (Grisetti, Stachniss).
 #pragma once
 
 #include "formats/formats.h"

@@ -57,7 +57,7 @@ std::vector<std::int64_t> column_counts(const OrderedPattern& pattern,
 
   RowSubtrees subtrees(n);
   for (Index j : post) {
-    if (parent[j] != -1) count[parent[j]] -= pattern.dim[parent[j]];
+    if (parent[j] != -1) count[parent[j]] -= pattern.dim[j];
     for (Index r = row_of[j]; r < row_of[j + 1]; ++r) {
       for (Index i : pattern.row(r).subspan(1)) {
         if (first[j] <= subtrees.max_first[i]) continue;  // j is no leaf of row i's subtree

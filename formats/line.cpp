@@ -1,0 +1,93 @@
+#include "formats/line.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace sg {
+namespace {
+
+// Calls `visit` with every line, without its newline, until it returns false.
+template <class Visit>
+void for_lines(std::string_view text, const Visit& visit) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (!visit(text.substr(at, end - at))) return;
+    at = end + 1;
+  }
+}
+
+}  // namespace
+
+std::string quoted(std::string_view word) {
+  return "'" + std::string(word) + "'";
+}
+
+Id read_id(std::string_view& rest, std::string_view what) {
+  const auto word = next_word(rest);
+  if (word.empty()) throw BadLine{"the line ends before " + std::string(what)};
+  if (const auto id = parse<Id>(word); id && *id >= 0) return *id;
+  const bool digits = word.find_first_not_of("0123456789") == word.npos;
+  throw BadLine{quoted(word) + (digits ? " is beyond 64 bits, too large for " : " is not ") +
+                std::string(what)};
+}
+
+double read_number(std::string_view& rest) {
+  const auto word = next_word(rest);
+  if (word.empty()) throw BadLine{"the line ends before its last number"};
+  const auto value = parse<double>(word);
+  if (!value) throw BadLine{quoted(word) + " is not a number"};
+  return *value;
+}
+
+std::string_view read_number_text(std::string_view& rest) {
+  auto copy = rest;
+  read_number(rest);
+  return next_word(copy);
+}
+
+void expect_end(std::string_view rest) {
+  const auto word = next_word(rest);
+  if (!word.empty()) throw BadLine{quoted(word) + " stands where the line should end"};
+}
+
+void append_number(std::string& out, double value) {
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  append_word(out, {digits.data(), static_cast<std::size_t>(result.ptr - digits.data())});
+}
+
+void append_word(std::string& out, std::string_view word) {
+  out += ' ';
+  out += word;
+}
+
+std::string translate_lines(std::string_view text, const std::string& file,
+                            const Complaint& complaint, const TranslateLine& translate) {
+  std::string out;
+  out.reserve(text.size() + text.size() / 4);
+  std::size_t number = 0;
+  for_lines(text, [&](std::string_view line) {
+    ++number;
+    const std::size_t mark = out.size();
+    try {
+      translate(line, out);
+    } catch (const BadLine& bad) {
+      out.resize(mark);
+      complaint(input_error(file, number, bad.cause));
+    }
+    out += '\n';
+    return true;
+  });
+  return out;
+}
+
+void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look) {
+  for_lines(text, [&](std::string_view line) {
+    const auto tag = next_word(line);
+    const bool skip = tag.empty() || tag.front() == '#' || tag == "FIX";
+    return skip || !look(tag);
+  });
+}
+
+}  // namespace sg

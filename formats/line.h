@@ -1,0 +1,47 @@
+// What the readers share: the words of one line, and the translation of a foreign format line by
+// line.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "formats/formats.h"
+#include "lib/graph/tokens.h"
+
+namespace sg {
+
+// A line that has a defect: caught line by line, so that reading can go on.
+struct BadLine {
+  std::string cause;
+};
+
+std::string quoted(std::string_view word);
+
+// Takes an id off the front of `rest`. `what` names it in the BadLine of one that is missing, no
+// whole number of 0 or more, or beyond 64 bits.
+Id read_id(std::string_view& rest, std::string_view what);
+
+// Takes a number off the front of `rest`; BadLine if it is missing or none.
+double read_number(std::string_view& rest);
+// The same as it is written, for numbers that a translation does not change.
+std::string_view read_number_text(std::string_view& rest);
+
+// BadLine unless nothing but blanks is left.
+void expect_end(std::string_view rest);
+
+// " 0.5": a blank and the shortest text that reads back as the same double.
+void append_number(std::string& out, double value);
+void append_word(std::string& out, std::string_view word);
+
+// The translation of every line of `text`, one line for one line. `translate` appends a line's
+// translation without its newline; what it throws as BadLine goes to `complaint`, and the line
+// becomes empty.
+using TranslateLine = std::function<void(std::string_view line, std::string& out)>;
+std::string translate_lines(std::string_view text, const std::string& file,
+                            const Complaint& complaint, const TranslateLine& translate);
+
+// Calls `look` with the tag of every line that has one and is neither comment nor FIX, until it
+// returns true. How a format is told by content.
+void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look);
+
+}  // namespace sg

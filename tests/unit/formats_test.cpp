@@ -1,0 +1,157 @@
+#include "formats/formats.h"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "lib/elim/score.h"
+#include "lib/graph/replay.h"
+#include "lib/order/order.h"
+
+using namespace sg;
+
+namespace {
+
+Graph graph_of(const std::string& text, const std::string& format = "") {
+  ReadOptions options;
+  options.format = format;
+  return read_graph_text(text_of(text), "test", options);
+}
+
+std::vector<std::string> complaints_of(const std::string& text, const std::string& format = "") {
+  std::vector<std::string> messages;
+  ReadOptions options;
+  options.format = format;
+  options.complaint = [&](const Error& error) { messages.push_back(message(error)); };
+  read_graph_text(text_of(text), "test", options);
+  return messages;
+}
+
+std::vector<double> numbers_of(const Graph& graph, Index e) {
+  std::vector<double> numbers;
+  edge_numbers(graph, e, numbers);
+  return numbers;
+}
+
+std::vector<double> estimate_of(const Graph& graph, Index v) {
+  std::vector<double> numbers;
+  vertex_numbers(graph, v, numbers);
+  return numbers;
+}
+
+std::string format_of(std::string_view text) {
+  for (const ReadFormat& format : read_formats()) {
+    if (format.looks_like(text)) return std::string(format.name);
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("formats are told by content", "[formats]") {
+  CHECK(format_of("ODOMETRY 0 1 1 0 0 1 0 0 1 0 1\n") == "isam");
+  CHECK(format_of("\r\n  # comment\r\n\r\n LANDMARK 0 1 1 0 1 0 1\r\n") == "isam");
+  CHECK(format_of("POINT3 0 1 1 0 1 0 1\n") == "isam");
+  CHECK(format_of("EDGE2 0 1\nEDGE2 1 2\n") == "isam");
+  CHECK(format_of("EDGE3 0 1") == "isam");
+  CHECK(format_of("EDGE2 0 1\nODOMETRY 1 2\n") == "isam");
+  CHECK(format_of("EDGE2 0 1\nVERTEX2 0 0 0 0\n") == "toro");
+  CHECK(format_of("VERTEX2 0 0 0 0\nEDGE2 0 1\n") == "toro");
+  CHECK(format_of("# c\nVERTEX3 0 0 0 0\nEDGE3 0 1\n") == "toro");
+  CHECK(format_of("FIX 0\nVERTEX2 0 0 0 0\n") == "toro");
+  CHECK(format_of("VERTEX_SE2 0 0 0 0\nODOMETRY 0 1\n") == "g2o");
+  CHECK(format_of("EDGE_SE2 0 1\nEDGE2 0 1\n") == "g2o");
+  CHECK(format_of("EDGE2 0 1\nEDGE_SE2 0 1\n") == "g2o");
+  CHECK(format_of("") == "g2o");
+  CHECK(format_of("EDGE22 0 1\n") == "g2o");
+}
+
+TEST_CASE("iSAM: square roots become information", "[formats]") {
+  const Graph graph = graph_of("ODOMETRY 0 1 1.50 2e0 +.5 1 2 3 4 5 6\r\n");
+  CHECK(graph.edges_only);
+  // R^T R of R = [1 2 3; 0 4 5; 0 0 6]
+  CHECK(numbers_of(graph, 0) == std::vector<double>{1.5, 2, .5, 1, 2, 3, 20, 26, 70});
+  CHECK(line_at(graph, graph.edge_line[0]).starts_with("EDGE_SE2 0 1 1.50 2e0 +.5 "));
+}
+
+TEST_CASE("iSAM: landmarks are numbered apart from poses", "[formats]") {
+  const Graph graph = graph_of(
+      "ODOMETRY 0 7 1 0 0 1 0 0 1 0 1\n"
+      "LANDMARK 7 9 1 0 2 1 3\n"
+      "LANDMARK 0 7 1 0 2 0 2\n");
+  REQUIRE(graph.id == std::vector<Id>{0, 7, 15, 17});
+  CHECK(graph.role(0) == Role::pose);
+  CHECK(graph.role(1) == Role::pose);
+  CHECK(graph.role(2) == Role::landmark);
+  CHECK(graph.role(3) == Role::landmark);
+  CHECK(graph.edge(1)[1] == 3);
+  CHECK(numbers_of(graph, 1) == std::vector<double>{1, 0, 4, 2, 10});
+  const auto beyond =
+      complaints_of("ODOMETRY 0 7 1 0 0 1 0 0 1 0 1\nLANDMARK 0 9223372036854775807 1 0 1 0 1\n");
+  REQUIRE(beyond.size() == 1);
+  CHECK(beyond[0].starts_with("test:2: "));
+}
+
+TEST_CASE("iSAM: points in space come with an identity offset", "[formats]") {
+  const Graph graph = graph_of(
+      "EDGE3 0 1 1 2 3 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 3 0 4 5 0 0\n"
+      "POINT3 1 0 4 5 6 1 0 0 1 0 2");
+  REQUIRE(graph.params.size() == 1);
+  CHECK(edge_params(graph, 1) == std::vector<Id>{graph.params[0].id});
+  const auto n = numbers_of(graph, 0);
+  CHECK(std::vector<double>(n.begin(), n.begin() + 7) == std::vector<double>{1, 2, 3, 0, 0, 0, 1});
+  // Rotation rows and columns are over half the rotation vector: R_rr^T R_rr = [9 0 12; 0 25 0;
+  // 12 0 16], times four.
+  CHECK(std::vector<double>(n.end() - 6, n.end()) == std::vector<double>{36, 0, 48, 100, 0, 64});
+}
+
+TEST_CASE("TORO: its own order of the information", "[formats]") {
+  const Graph graph = graph_of(
+      "VERTEX2 0 0 0 0\nVERTEX2 1 1 0 0\n"
+      "EDGE2 0 1 1 2 3 11 12 22 33 13 23\n");
+  CHECK(numbers_of(graph, 0) == std::vector<double>{1, 2, 3, 11, 12, 13, 22, 23, 33});
+  CHECK(graph.type_of_vertex(0).tag == "VERTEX_SE2");
+}
+
+TEST_CASE("TORO: roll, pitch and yaw become a quaternion", "[formats]") {
+  const double a = 0.3;
+  const Graph graph = graph_of("VERTEX3 5 1 2 3 0 0 0.3\nVERTEX3 6 1 2 3 0.3 0 0\n");
+  const auto yaw = estimate_of(graph, 0);
+  CHECK(yaw[5] == Approx(std::sin(a / 2)));
+  CHECK(yaw[6] == Approx(std::cos(a / 2)));
+  const auto roll = estimate_of(graph, 1);
+  CHECK(roll[3] == Approx(std::sin(a / 2)));
+}
+
+TEST_CASE("foreign formats: line numbers hold and reading goes on", "[formats]") {
+  const auto messages = complaints_of(
+      "# comment\r\n"
+      "ODOMETRY 0 1 1 0 0 1 0 0 1 0 1\r\n"
+      "\r\n"
+      "ODOMETRY 1 2 1 0 zero 1 0 0 1 0 1\r\n"
+      "ODOMETRY 1 2 1 0 0 1 0 0 1 0\r\n"
+      "ODOMETRY 1 -2 1 0 0 1 0 0 1 0 1\r\n"
+      "ODOMETRY 1 2 1 0 0 1 0 0 1 0 1 1\r\n"
+      "MYSTERY 1 2\r\n"
+      "ODOMETRY 1 2 1 0 0 1 0 0 1 0 1");
+  REQUIRE(messages.size() == 5);
+  CHECK(messages[0] == "test:4: 'zero' is not a number");
+  CHECK(messages[1] == "test:5: the line ends before its last number");
+  CHECK(messages[2] == "test:6: '-2' is not a pose id");
+  CHECK(messages[3] == "test:7: '1' stands where the line should end");
+  CHECK(messages[4].starts_with("test:8: unknown tag 'MYSTERY'"));
+  CHECK(complaints_of("VERTEX2 0 0 0\n", "toro").size() == 1);
+}
+
+TEST_CASE("public iSAM files have the published elimination complexity", "[formats][data]") {
+  const char* folder = std::getenv("SGTOOLS_DATA");
+  if (!folder) {
+    WARN("skipped: SGTOOLS_DATA is not set");
+    return;
+  }
+  const auto [name, ec] = GENERATE(table<std::string, std::string>(
+      {{"victoriaPark", "3348952"}, {"manhattanOlson3500", "7738470"}, {"sphere400", "17237880"}}));
+  const Graph graph = read_graph(std::string(folder) + "/" + name + ".isam.txt");
+  const GraphPattern pattern = graph_pattern(graph);
+  const Order order = elimination_order("colamd", pattern.pattern, order_options(graph, pattern));
+  CHECK(to_string(elimination_complexity(pattern.pattern, order)) == ec);
+}
