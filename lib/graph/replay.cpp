@@ -37,20 +37,37 @@ void enter_observed(const Graph& graph, const PoseIndex& poses, int min_obs,
   }
 }
 
-// Vertices that only edges without a pose reach enter with their first neighbour that is there.
+// Vertices that only edges without a pose reach enter with the first neighbour that is there: a
+// search from the vertices that have a step, earliest first, through those that no pose observes.
 void spread(const Graph& graph, const PoseIndex& poses, std::vector<Index>& vertex_step) {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (Index e = 0; e < graph.edges(); ++e) {
-      if (last_pose(graph, poses, e) >= 0) continue;
-      Index first = -1;
-      for (Index v : graph.edge(e)) {
-        if (vertex_step[v] >= 0 && (first < 0 || vertex_step[v] < first)) first = vertex_step[v];
-      }
-      for (Index v : graph.edge(e)) {
-        if (first < 0 || vertex_step[v] >= 0) continue;
-        vertex_step[v] = first;
-        changed = true;
+  std::vector<bool> observed(graph.vertices(), false);
+  std::vector<std::pair<Index, Index>> incident;  // (vertex, edge), of those edges
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (last_pose(graph, poses, e) < 0) {
+      for (Index v : graph.edge(e)) incident.emplace_back(v, e);
+    } else {
+      for (Index v : graph.edge(e)) observed[v] = true;
+    }
+  }
+  std::sort(incident.begin(), incident.end());
+  std::vector<Index> reached;
+  for (const auto& [v, e] : incident) {
+    if (vertex_step[v] >= 0 && (reached.empty() || reached.back() != v)) reached.push_back(v);
+  }
+  std::stable_sort(reached.begin(), reached.end(),
+                   [&](Index a, Index b) { return vertex_step[a] < vertex_step[b]; });
+
+  for (const Index source : reached) {
+    for (std::vector<Index> stack{source}; !stack.empty();) {
+      const Index v = stack.back();
+      stack.pop_back();
+      auto it = std::lower_bound(incident.begin(), incident.end(), std::pair<Index, Index>{v, 0});
+      for (; it != incident.end() && it->first == v; ++it) {
+        for (Index u : graph.edge(it->second)) {
+          if (vertex_step[u] >= 0 || observed[u]) continue;
+          vertex_step[u] = vertex_step[v];
+          stack.push_back(u);
+        }
       }
     }
   }

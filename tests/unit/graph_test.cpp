@@ -66,6 +66,13 @@ std::vector<Index> literal_edge_steps(const Graph& graph, int min_obs) {
   const PoseIndex poses = pose_index(graph);
   std::vector<bool> present(graph.vertices(), false);
   std::vector<Index> step_of(graph.edges(), -1);
+  std::vector<bool> observed(graph.vertices(), false);  // by any pose, ever
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const auto ends = graph.edge(e);
+    if (std::none_of(ends.begin(), ends.end(), [&](Index v) { return poses.index[v] >= 0; }))
+      continue;
+    for (Index v : ends) observed[v] = true;
+  }
   for (Index step = 0; step < static_cast<Index>(poses.pose.size()); ++step) {
     present[poses.pose[step]] = true;
     std::map<Index, int> observations;
@@ -86,7 +93,8 @@ std::vector<Index> literal_edge_steps(const Graph& graph, int min_obs) {
           continue;
         if (std::none_of(ends.begin(), ends.end(), [&](Index v) { return present[v]; })) continue;
         for (Index v : ends) {
-          changed = changed || !present[v];
+          if (present[v] || observed[v]) continue;
+          changed = true;
           present[v] = true;
         }
       }
@@ -187,21 +195,34 @@ TEST_CASE("a wrong line is named with its cause", "[graph]") {
   CHECK(cause("VERTEX_SE2 9223372036854775807 0 0 0\n").empty());
 }
 
+TEST_CASE("reading goes on after a defect, without its line", "[graph]") {
+  std::vector<std::string> said;
+  ReadOptions options;
+  options.complaint = [&](const Error& error) { said.push_back(message(error)); };
+  const Graph graph = read_graph_text(text_of("VERTEX_XY 1 0\nVERTEX_XY 2 0 0\nEDGE_POINTXY 2 2 0 "
+                                              "0 1 0 1\nEDGE_POINTXY 1 2 0 0 1 0 1\nFIX 1 2\n"),
+                                      "test.g2o", options);
+  CHECK(said == std::vector<std::string>{
+                    "test.g2o:1: VERTEX_XY wants 2 numbers here, the line has 1",
+                    "test.g2o:4: EDGE_POINTXY joins vertex 1, which the file does not define",
+                    "test.g2o:5: FIX names vertex 1, which the file does not define"});
+  CHECK(graph.id == std::vector<Id>{2});
+  CHECK(graph.edges() == 1);
+  CHECK(graph.fixed[0]);
+}
+
 TEST_CASE("a taught tag has its dimension, role and arity", "[graph]") {
   ReadOptions options;
   options.vertex_types = {"VERTEX_WHEEL:BASE:5:pose"};
   options.edge_types = {"EDGE_THREE:3"};
-  const Graph graph = read_graph_text(
-      text_of("VERTEX_WHEEL:BASE 1 x\nVERTEX_WHEEL:BASE 2\nVERTEX_XY 3 0 0\nEDGE_THREE 1 2 3\n"),
-      "test.g2o", [&] {
-        auto taught = options;
-        taught.complaint = [](const Error&) {};  // the `x`
-        return taught;
-      }());
-  REQUIRE(graph.vertices() == 2);
+  const std::string text =
+      "VERTEX_WHEEL:BASE 1 0.5\nVERTEX_WHEEL:BASE 2\nVERTEX_XY 3 0 0\nEDGE_THREE 1 2 3\n";
+  const Graph graph = read_graph_text(text_of(text), "test.g2o", options);
+  REQUIRE(graph.vertices() == 3);
   CHECK(graph.dim(0) == 5);
   CHECK(graph.role(0) == Role::pose);
-  CHECK(graph.edges() == 0);  // its first vertex line was defective
+  REQUIRE(graph.edges() == 1);
+  CHECK(graph.edge(0).size() == 3);
 
   for (const std::string wrong : {"A", "A:0:pose", "A:3:boss", ":3:pose", "A:3", "A:-1:pose"}) {
     ReadOptions bad;
