@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/graph/error.h"
+#include "lib/order/constraint.h"
 #include "lib/order/methods.h"
 
 namespace sg::ordering {
@@ -18,16 +19,6 @@ namespace {
 void keep_dense(double* knobs) {
   knobs[CCOLAMD_DENSE_ROW] = -1;
   knobs[CCOLAMD_DENSE_COL] = -1;
-}
-
-// Constraint set of every variable: 1 of `last`, 0 of the others. Empty where nothing is
-// constrained.
-std::vector<int> constraint_sets(Index n, const std::vector<Index>& last) {
-  std::vector<int> set(n, 0);
-  Index ones = 0;
-  for (Index j : last) ones += 1 - std::exchange(set.at(j), 1);
-  if (ones == 0 || ones == n) set.clear();
-  return set;
 }
 
 }  // namespace

@@ -8,10 +8,17 @@
 
 namespace sg::ordering {
 
+Order amd(const Pattern& pattern, const OrderOptions& options);
 Order colamd(const Pattern& pattern, const OrderOptions& options);
 Order file(const Pattern& pattern, const OrderOptions& options);
 Order id(const Pattern& pattern, const OrderOptions& options);
+Order king(const Pattern& pattern, const OrderOptions& options);
 Order landmarks_first(const Pattern& pattern, const OrderOptions& options);
+Order metis(const Pattern& pattern, const OrderOptions& options);
+Order mmd(const Pattern& pattern, const OrderOptions& options);
 Order random(const Pattern& pattern, const OrderOptions& options);
+Order rcm(const Pattern& pattern, const OrderOptions& options);
+Order scotch(const Pattern& pattern, const OrderOptions& options);
+Order sloan(const Pattern& pattern, const OrderOptions& options);
 
 }  // namespace sg::ordering

@@ -15,6 +15,13 @@ constexpr Ordering table[] = {
     {"landmarks-first", "landmarks by id, then the rest by id (the paper's)",
      ordering::landmarks_first},
     {"colamd", "CCOLAMD without dense-row removal, on the factors", ordering::colamd},
+    {"amd", "AMD, on the block graph", ordering::amd},
+    {"metis", "nested dissection by METIS", ordering::metis},
+    {"scotch", "nested dissection by Scotch", ordering::scotch},
+    {"mmd", "multiple minimum degree (Boost.Graph)", ordering::mmd},
+    {"rcm", "reverse Cuthill-McKee (Boost.Graph)", ordering::rcm},
+    {"king", "King's profile reduction, reversed (Boost.Graph)", ordering::king},
+    {"sloan", "Sloan's profile and wavefront reduction (Boost.Graph)", ordering::sloan},
     {"random", "at random, by --seed", ordering::random},
 };
 

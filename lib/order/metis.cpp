@@ -1,0 +1,42 @@
+// Nested dissection by METIS (Karypis, Kumar, SIAM J. Sci. Comput. 20, 1998), variables weighing
+// their dimension where dimensions differ. METIS draws from the C library's generator, which it
+// seeds itself: not to be called from two threads at once.
+#include <metis.h>
+
+#include <algorithm>
+#include <string>
+
+#include "lib/graph/error.h"
+#include "lib/order/methods.h"
+#include "lib/order/parts.h"
+
+namespace sg::ordering {
+namespace {
+
+static_assert(sizeof(idx_t) == sizeof(Index));
+
+Order order_part(Part& part, std::uint64_t seed) {
+  idx_t n = part.adjacency.size();
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_NUMBERING] = 0;
+  if (seed != 0) options[METIS_OPTION_SEED] = static_cast<idx_t>(seed % 0x7fffffff);
+  const bool alike = std::equal(part.dim.begin() + 1, part.dim.end(), part.dim.begin());
+  Order order(n);
+  Order position(n);
+  const int status =
+      METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.neighbours.data(),
+                   alike ? nullptr : part.dim.data(), options, order.data(), position.data());
+  if (status != METIS_OK) {
+    throw computation_error("METIS failed (status " + std::to_string(status) + ")");
+  }
+  return order;
+}
+
+}  // namespace
+
+Order metis(const Pattern& pattern, const OrderOptions& options) {
+  return order_by_parts(pattern, [&](Part& part) { return order_part(part, options.seed); });
+}
+
+}  // namespace sg::ordering

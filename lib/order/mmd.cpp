@@ -1,0 +1,29 @@
+// Multiple minimum degree (George, Liu, SIAM Review 31, 1989), Boost.Graph's.
+#include <boost/graph/minimum_degree_ordering.hpp>
+
+#include "lib/order/boost_graph.h"
+#include "lib/order/methods.h"
+
+namespace sg::ordering {
+namespace {
+
+Order order_part(const Part& part) {
+  BoostGraph graph = boost_graph(part.adjacency);
+  const auto n = static_cast<std::size_t>(part.adjacency.size());
+  std::vector<int> degree(n, 0);
+  std::vector<int> position(n, 0);
+  std::vector<int> supernode_size(n, 1);
+  Order order(n, 0);
+  boost::minimum_degree_ordering(graph, vertex_map(degree, graph), position.data(), order.data(),
+                                 vertex_map(supernode_size, graph), 0,
+                                 boost::get(boost::vertex_index, graph));
+  return order;
+}
+
+}  // namespace
+
+Order mmd(const Pattern& pattern, const OrderOptions&) {
+  return order_by_parts(pattern, order_part);
+}
+
+}  // namespace sg::ordering

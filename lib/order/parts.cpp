@@ -1,0 +1,60 @@
+#include "lib/order/parts.h"
+
+#include <algorithm>
+
+namespace sg {
+namespace {
+
+// The variables that can be reached from `first`, ascending; marks them in `seen`.
+std::vector<Index> reachable(const Adjacency& graph, Index first, std::vector<bool>& seen) {
+  std::vector<Index> found{first};
+  seen[first] = true;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    for (Index i : graph[found[k]]) {
+      if (!seen[i]) found.push_back(i);
+      seen[i] = true;
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// `number` is scratch space of n.
+Part part_of(const Pattern& pattern, const Adjacency& graph, const std::vector<Index>& variables,
+             std::vector<Index>& number) {
+  Part part;
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    number[variables[k]] = static_cast<Index>(k);
+    part.dim.push_back(pattern.dim[variables[k]]);
+  }
+  part.adjacency.begin.push_back(0);
+  for (Index j : variables) {
+    for (Index i : graph[j]) part.adjacency.neighbours.push_back(number[i]);
+    part.adjacency.begin.push_back(static_cast<Index>(part.adjacency.neighbours.size()));
+  }
+  return part;
+}
+
+}  // namespace
+
+Order order_by_parts(const Pattern& pattern, const std::function<Order(Part&)>& order_part) {
+  const Index n = pattern.variables();
+  const Adjacency graph = adjacency(pattern);
+  std::vector<bool> seen(n, false);
+  std::vector<Index> number(n);
+  Order order;
+  order.reserve(n);
+  for (Index j = 0; j < n; ++j) {
+    if (seen[j]) continue;
+    const std::vector<Index> variables = reachable(graph, j, seen);
+    if (variables.size() == 1) {
+      order.push_back(j);
+      continue;
+    }
+    Part part = part_of(pattern, graph, variables, number);
+    for (Index k : order_part(part)) order.push_back(variables[k]);
+  }
+  return order;
+}
+
+}  // namespace sg
