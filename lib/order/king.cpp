@@ -1,7 +1,8 @@
 // King's ordering for a small profile (King, Int. J. Numer. Methods Eng. 2, 1970), Boost.Graph's,
 // reversed: a small front on the way in is a small separator on the way out.
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // Boost's visitor is copied before it starts
+#pragma GCC diagnostic ignored \
+    "-Wmaybe-uninitialized"  // Boost's visitor is copied before it starts
 #include <boost/graph/king_ordering.hpp>
 #pragma GCC diagnostic pop
 
