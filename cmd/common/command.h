@@ -45,8 +45,8 @@ struct Inputs {
   ReadOptions options;
 };
 void add_inputs(Command& command, Inputs& inputs);
-// Reads the graph. A terminal as standard input is a usage error, since nobody types a graph; a file without a vertex is
-// an input error.
+// Reads the graph. A terminal as standard input is a usage error, since nobody types a graph; a file
+// without a vertex is an input error.
 Graph read(const Input& input);
 Graph read(const Inputs& inputs, const std::string& path);
 

@@ -5,7 +5,7 @@
 //   EDGE_PROJECT_XYZ2UVU:EXPMAP        e = z - (u, v, u in a right camera at `baseline`)
 //   EDGE_SE3_PROJECT_XYZ:EXPMAP        as XYZ2UV with fx fy cx cy at the line's end
 //   EDGE_STEREO_SE3_PROJECT_XYZ:EXPMAP as XYZ2UVU with fx fy cx cy and bf = fx * baseline at the
-//   line's end
+//                                      line's end
 // A step (w, t) moves E l by w x E l + t.
 #pragma once
 

@@ -16,11 +16,11 @@
 //     params       the kinds of its parameters, in file order
 //     prepare(z, params, c)     measurement, extra numbers and parameters to the constants c
 //     evaluate(x, c, e, J)      error and, unless J is null, the Jacobian J[k] (dim x space_dim, by
-//     column) of vertex k place(x, c, end, out)     optional: the estimate of vertex `end` that
-//     makes the error 0, from the other's;
-//                               false where the edge does not tell
-//     rays(x, c, rows)          optional: how a landmark lies on a line: rows of a linear system in
-//     its coordinates
+//                               column) of vertex k
+//     place(x, c, end, out)     optional: the estimate of vertex `end` that makes the error 0, from
+//                               the other's; false where the edge does not tell
+//     rays(x, c)                optional: how a landmark lies on a line: rows of a linear system in
+//                               its coordinates
 #pragma once
 
 #include <array>

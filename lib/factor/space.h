@@ -2,11 +2,13 @@
 //
 // The steps are g2o's (`oplus`), so that Jacobians, information matrices and iterates compare with
 // its own:
-//   se2     (x, y, theta)              added number by number, theta wrapped VERTEX_SE2 se3     (x,
-//   y, z, qx, qy, qz, qw)  x d, d = (step[0..2]; quaternion vector step[3..5])  VERTEX_SE3:QUAT
-//   expmap  the same seven numbers     exp(step) x, step = (rotation, translation)
-//   VERTEX_SE3:EXPMAP xy, xyz                            added VERTEX_XY; VERTEX_TRACKXYZ,
-//   VERTEX_XYZ
+//   se2     VERTEX_SE2                  (x, y, theta): added number by number, theta wrapped
+//   se3     VERTEX_SE3:QUAT             (x, y, z, qx, qy, qz, qw): x d, where d is the translation
+//                                       step[0..2] and the quaternion with vector part step[3..5]
+//   expmap  VERTEX_SE3:EXPMAP           the same seven numbers: exp(step) x, step = (rotation,
+//                                       translation)
+//   xy      VERTEX_XY                   added
+//   xyz     VERTEX_TRACKXYZ, VERTEX_XYZ added
 // An expmap estimate maps world to camera; its file line holds the inverse. Quaternions have unit
 // length in memory.
 #pragma once
