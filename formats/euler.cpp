@@ -1,12 +1,26 @@
 #include "formats/euler.h"
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "formats/line.h"
 
 namespace sg {
 namespace {
 
+// Near pitch = +-pi/2, where only roll -+ yaw is determined, atan2 still splits it so that the
+// rotation is the same one.
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
+  const Eigen::Matrix3d r = q.toRotationMatrix();
+  const double pitch = std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2)));
+  const double yaw = std::atan2(r(1, 0), r(0, 0));
+  const double s = std::sin(yaw);
+  const double c = std::cos(yaw);
+  return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)), pitch, yaw};
+}
+
 Matrix6d scaled(const Matrix6d& information, double rotation) {
-  Vector6d s = Vector6d::Ones();
+  Eigen::Matrix<double, 6, 1> s = Eigen::Matrix<double, 6, 1>::Ones();
   s.tail<3>().setConstant(rotation);
   return s.asDiagonal() * information * s.asDiagonal();
 }
@@ -57,7 +71,9 @@ void translate_euler_pose(std::string_view& rest, std::string& out) {
   const double roll = read_number(rest);
   const double pitch = read_number(rest);
   const double yaw = read_number(rest);
-  const Eigen::Quaterniond q = from_roll_pitch_yaw(roll, pitch, yaw);
+  const Eigen::Quaterniond q = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                               Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
   for (const double value : {q.x(), q.y(), q.z(), q.w()}) append_number(out, value);
 }
 

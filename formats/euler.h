@@ -3,7 +3,7 @@
 //
 // Both give a rotation as roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll), radians. g2o gives a
 // quaternion, and its information is over (dx, dy, dz, the vector part of dq) of a small motion d
-// in the measurement's end frame (lib/geometry/se3.h).
+// in the measurement's end frame.
 //
 // The information of (x, y, z, roll, pitch, yaw) is taken over the same small motion d, whose
 // roll, pitch and yaw are, to first order, its rotation vector. That is how the readers of g2o and
@@ -15,13 +15,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 #include <string>
 #include <string_view>
 
-#include "lib/geometry/se3.h"
-
 namespace sg {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // Upper triangle, row by row, of a symmetric or an upper triangular N x N matrix.
 template <int N>

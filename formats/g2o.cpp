@@ -33,6 +33,19 @@ struct Fix {
   Offset line;
 };
 
+// Line numbers of offsets that mostly ascend: each costs the text since the one before.
+struct LineCounter {
+  Offset at = 0;
+  std::size_t number = 1;
+
+  std::size_t operator()(std::string_view text, Offset line) {
+    if (line < at) *this = {};
+    number += static_cast<std::size_t>(std::count(text.begin() + at, text.begin() + line, '\n'));
+    at = line;
+    return number;
+  }
+};
+
 // What parsing collects before ids are resolved: Graph's own arrays, vertices still in file order.
 struct Parser {
   Graph graph;
@@ -42,12 +55,23 @@ struct Parser {
   std::string_view last_tag;  // runs of lines share their tag: look it up once
   const TagMeaning* last_meaning = nullptr;
 
+  LineCounter line_number;
+
   explicit Parser(const Complaint& complaint_) : complaint(complaint_) {}
+
+  void complain(Offset line, const std::string& cause) {
+    complaint(input_error(graph.file, line_number(graph.text.view, line), cause));
+  }
 };
 
+Error too_large(const Graph& graph) {
+  return input_error(graph.file, 0,
+                     "more than 2^31 - 1 vertices or edge ends: the graph is too large");
+}
+
 // Checks that the rest of the line is numbers, `needed` of them or more (-1: any count).
-void check_numbers(std::string_view line, int needed, std::string_view tag) {
-  int count = 0;
+void check_numbers(std::string_view line, std::int64_t needed, std::string_view tag) {
+  std::int64_t count = 0;
   while (true) {
     const auto word = next_word(line);
     if (word.empty()) break;
@@ -64,13 +88,14 @@ void parse_vertex(Parser& parser, TypeIndex type_index, Offset at, std::string_v
   const VertexType& type = parser.graph.tags.vertices[type_index];
   const Id id = read_id(rest, "a vertex id");
   check_numbers(rest, type.numbers, type.tag);
+  if (parser.graph.id.size() == std::numeric_limits<Index>::max()) throw too_large(parser.graph);
   parser.graph.id.push_back(id);
   parser.graph.vertex_type.push_back(type_index);
   parser.graph.vertex_line.push_back(at);
 }
 
 // The ids of an edge line, onto parser.edge_ids; returns how many numbers have to follow.
-int parse_edge_ids(Parser& parser, const EdgeType& type, std::string_view& rest) {
+std::int64_t parse_edge_ids(Parser& parser, const EdgeType& type, std::string_view& rest) {
   if (!type.counted) {
     for (std::size_t k = 0; k < type.endpoints.size(); ++k)
       parser.edge_ids.push_back(read_id(rest, "a vertex id"));
@@ -81,7 +106,7 @@ int parse_edge_ids(Parser& parser, const EdgeType& type, std::string_view& rest)
   if (count > static_cast<Id>(rest.size()))
     throw BadLine{"the line ends before its " + std::to_string(count) + " vertex ids"};
   for (Id k = 0; k < count; ++k) parser.edge_ids.push_back(read_id(rest, "a vertex id"));
-  return static_cast<int>(count) * type.numbers;
+  return type.numbers < 0 ? -1 : count * type.numbers;
 }
 
 void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_view rest) {
@@ -89,13 +114,14 @@ void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_vie
   const EdgeType& type = graph.tags.edges[type_index];
   const std::size_t first = parser.edge_ids.small.size();
   try {
-    const int numbers = parse_edge_ids(parser, type, rest);
+    const std::int64_t numbers = parse_edge_ids(parser, type, rest);
     for (int k = 0; k < type.params; ++k) read_id(rest, "a parameter id");
     check_numbers(rest, numbers, type.tag);
   } catch (const BadLine&) {
     parser.edge_ids.small.resize(first);
     throw;
   }
+  if (parser.edge_ids.small.size() > std::numeric_limits<Index>::max()) throw too_large(graph);
   graph.edge_type.push_back(type_index);
   graph.edge_line.push_back(at);
   graph.edge_begin.push_back(static_cast<Index>(parser.edge_ids.small.size()));
@@ -150,7 +176,7 @@ void parse_lines(Parser& parser) {
     try {
       parse_line(parser, static_cast<Offset>(at), text.substr(at, end - at));
     } catch (const BadLine& bad) {
-      parser.complaint(error_at(parser.graph, static_cast<Offset>(at), bad.cause));
+      parser.complain(static_cast<Offset>(at), bad.cause);
     }
     at = end + 1;
   }
@@ -195,9 +221,8 @@ void sort_vertices(Parser& parser) {
   }
   std::sort(duplicates.begin(), duplicates.end());
   for (Index v : duplicates) {
-    parser.complaint(
-        error_at(graph, graph.vertex_line[v],
-                 "vertex " + std::to_string(graph.id[v]) + " is defined a second time"));
+    parser.complain(graph.vertex_line[v],
+                    "vertex " + std::to_string(graph.id[v]) + " is defined a second time");
   }
   permute(graph.id, kept);
   permute(graph.vertex_type, kept);
@@ -262,11 +287,10 @@ void imply_vertices(Parser& parser) {
       graph.id.push_back(mention.id);
       graph.vertex_type.push_back(mention.type);
     } else if (graph.vertex_type.back() != mention.type) {
-      parser.complaint(error_at(graph, graph.edge_line[mention.edge],
-                                "vertex " + std::to_string(mention.id) + " is " +
-                                    graph.tags.vertices[mention.type].tag + " here and " +
-                                    graph.tags.vertices[graph.vertex_type.back()].tag +
-                                    " in another edge"));
+      parser.complain(graph.edge_line[mention.edge],
+                      "vertex " + std::to_string(mention.id) + " is " +
+                          graph.tags.vertices[mention.type].tag + " here and " +
+                          graph.tags.vertices[graph.vertex_type.back()].tag + " in another edge");
     }
   }
   graph.vertex_line.assign(graph.id.size(), implied);
@@ -289,9 +313,9 @@ void resolve_edges(Parser& parser, const VertexLookup& lookup) {
       const Index v = lookup[id];
       if (v < 0) {
         whole = false;
-        parser.complaint(error_at(graph, graph.edge_line[e],
-                                  graph.type_of_edge(e).tag + " joins vertex " +
-                                      std::to_string(id) + ", which the file does not define"));
+        parser.complain(graph.edge_line[e], graph.type_of_edge(e).tag + " joins vertex " +
+                                                std::to_string(id) +
+                                                ", which the file does not define");
       }
       vertices[kept_ids + (k - begin)] = v;
     }
@@ -317,9 +341,8 @@ void resolve_fixes(Parser& parser, const VertexLookup& lookup) {
     if (const Index v = lookup[fix.id]; v >= 0) {
       graph.fixed[v] = true;
     } else {
-      parser.complaint(error_at(
-          graph, fix.line,
-          "FIX names vertex " + std::to_string(fix.id) + ", which the file does not define"));
+      parser.complain(fix.line, "FIX names vertex " + std::to_string(fix.id) +
+                                    ", which the file does not define");
     }
   }
 }

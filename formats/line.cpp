@@ -20,7 +20,12 @@ void for_lines(std::string_view text, const Visit& visit) {
 }  // namespace
 
 std::string quoted(std::string_view word) {
-  return "'" + std::string(word) + "'";
+  constexpr std::size_t longest = 40;
+  std::string text = "'";
+  for (const char c : word.substr(0, longest)) {
+    text += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
+  }
+  return text + (word.size() > longest ? "...'" : "'");
 }
 
 Id read_id(std::string_view& rest, std::string_view what) {

@@ -15,6 +15,8 @@ struct BadLine {
   std::string cause;
 };
 
+// The word in quotes as a message shows it: cut to a length that fits a line, without control
+// characters.
 std::string quoted(std::string_view word);
 
 // Takes an id off the front of `rest`. `what` names it in the BadLine of one that is missing, no

@@ -31,7 +31,8 @@ void edit_fix_lines(const Graph& graph, const std::vector<bool>& drop_vertex,
     }
     if (!dropped) continue;
     const auto [begin, end] = line_extent(graph, line);
-    edits.push_back({begin, end, kept.empty() ? "" : "FIX" + kept + "\n"});
+    const auto newline = line_at(graph, line).ends_with('\r') ? "\r\n" : "\n";
+    edits.push_back({begin, end, kept.empty() ? "" : "FIX" + kept + std::string(newline)});
   }
 }
 
@@ -58,6 +59,22 @@ std::vector<Span> dropped_lines(const Graph& graph, const Changes& changes) {
   return spans;
 }
 
+// The end of the comment lines at the head of the text.
+Offset leading_comments(const Graph& graph) {
+  Offset at = 0;
+  while (at < static_cast<Offset>(graph.text.view.size())) {
+    auto line = line_at(graph, at);
+    if (!next_word(line).starts_with('#')) break;
+    at = line_extent(graph, at).second;
+  }
+  return at;
+}
+
+// Lines can only follow a newline: a text whose last line lacks it gets it.
+bool needs_newline(std::string_view before) {
+  return !before.empty() && before.back() != '\n';
+}
+
 }  // namespace
 
 std::pair<Offset, Offset> line_extent(const Graph& graph, Offset line) {
@@ -80,13 +97,17 @@ Changes unchanged(const Graph& graph) {
 }
 
 void write_changed(const Graph& graph, Changes changes, std::string_view comment, Sink& sink) {
-  sink.write(comment);
-  edit_fix_lines(graph, changes.drop_vertex, changes.edits);
+  const std::string_view text = graph.text.view;
   auto& edits = changes.edits;
+  if (!comment.empty()) {
+    const Offset at = leading_comments(graph);
+    const bool newline = needs_newline(text.substr(0, static_cast<std::size_t>(at)));
+    edits.insert(edits.begin(), {at, at, (newline ? "\n" : "") + std::string(comment)});
+  }
+  edit_fix_lines(graph, changes.drop_vertex, edits);
   std::stable_sort(edits.begin(), edits.end(),
                    [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
   const std::vector<Span> dropped = dropped_lines(graph, changes);
-  const std::string_view text = graph.text.view;
   Offset at = 0;
   const auto copy_to = [&](Offset to) {
     if (to > at) sink.write(text.substr(at, to - at));
@@ -106,7 +127,7 @@ void write_changed(const Graph& graph, Changes changes, std::string_view comment
   }
   copy_to(static_cast<Offset>(text.size()));
   if (changes.append.empty()) return;
-  if (!text.empty() && text.back() != '\n') sink.write("\n");
+  if (needs_newline(text)) sink.write("\n");
   sink.write(changes.append);
 }
 

@@ -41,7 +41,7 @@ struct Changes {
 Changes unchanged(const Graph& graph);
 
 // Writes the graph's text with the changes. `comment` (a line with its newline, or nothing) goes
-// first.
+// after the comment lines at the head of the text, so that the calls of a pipe read in order.
 void write_changed(const Graph& graph, Changes changes, std::string_view comment, Sink& sink);
 
 }  // namespace sg
