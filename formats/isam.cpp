@@ -1,6 +1,8 @@
 #include "formats/isam.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <limits>
 
 #include "formats/euler.h"
@@ -83,6 +85,84 @@ void translate_point3(std::string_view rest, Id after, std::string& out) {
   append_triangle<3>(out, read_information<3>(rest));
 }
 
+// Of these parameters alone iSAM's POINT3 can say nothing and means the same.
+bool identity_offset(const Graph& graph, Id id) {
+  const std::vector<double> identity{0, 0, 0, 0, 0, 0, 1};
+  std::vector<double> numbers;
+  for (const Param& param : graph.params) {
+    if (param.id != id) continue;
+    param_numbers(graph, param, numbers);
+    return line_at(graph, param.line).find("PARAMS_SE3OFFSET") != std::string_view::npos &&
+           numbers == identity;
+  }
+  return false;
+}
+
+bool holds_edge(const Graph& graph, Index e) {
+  const std::string_view tag = graph.type_of_edge(e).tag;
+  if (tag == "EDGE_SE3_TRACKXYZ") return identity_offset(graph, edge_params(graph, e).front());
+  return tag == "EDGE_SE2" || tag == "EDGE_SE3:QUAT" || tag == "EDGE_SE2_XY";
+}
+
+// Whether an edge that iSAM can hold joins the vertex.
+std::vector<bool> mentioned(const Graph& graph) {
+  std::vector<bool> result(graph.vertices(), false);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (!holds_edge(graph, e)) continue;
+    for (Index v : graph.edge(e)) result[v] = true;
+  }
+  return result;
+}
+
+// R with R^T R = W: Cholesky's, or of a singular W the triangle of sqrt(D) V^T, W = V D V^T.
+template <int N>
+Eigen::Matrix<double, N, N> square_root(const Eigen::Matrix<double, N, N>& information) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const Eigen::LLT<Matrix> cholesky(information);
+  if (cholesky.info() == Eigen::Success) return cholesky.matrixU();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
+  const Matrix root =
+      eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  return Eigen::HouseholderQR<Matrix>(root).matrixQR().template triangularView<Eigen::Upper>();
+}
+
+template <int N>
+Eigen::Matrix<double, N, N> read_symmetric(std::string_view& rest) {
+  return symmetric<N>(read_triangle<N>(rest));
+}
+
+void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out) {
+  auto rest = line_at(graph, graph.edge_line[e]);
+  const auto tag = next_word(rest);
+  const bool point = tag == "EDGE_SE3_TRACKXYZ";
+  const bool landmark = point || tag == "EDGE_SE2_XY";
+  out = point ? "POINT3" : landmark ? "LANDMARK" : tag == "EDGE_SE2" ? "ODOMETRY" : "EDGE3";
+  append_id(out, read_id(rest, "a pose id"));
+  append_id(out, read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
+  if (tag == "EDGE_SE3:QUAT") {
+    translate_quaternion_pose(rest, out);
+    return append_triangle<6>(out, square_root<6>(to_euler_information(read_symmetric<6>(rest))));
+  }
+  if (point) read_id(rest, "a parameter id");
+  const int numbers = tag == "EDGE_SE2_XY" ? 2 : 3;
+  for (int k = 0; k < numbers; ++k) append_word(out, read_number_text(rest));
+  if (numbers == 2) return append_triangle<2>(out, square_root<2>(read_symmetric<2>(rest)));
+  append_triangle<3>(out, square_root<3>(read_symmetric<3>(rest)));
+}
+
+// What to take off a landmark's id so that reading gives it back; 0 where that cannot be.
+Id first_landmark(const Graph& graph) {
+  const std::vector<bool> used = mentioned(graph);
+  Id last_pose = -1;
+  Id landmark = std::numeric_limits<Id>::max();
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (!used[v]) continue;
+    if (graph.role(v) == Role::pose) last_pose = graph.id[v];
+    if (graph.role(v) == Role::landmark) landmark = std::min(landmark, graph.id[v]);
+  }
+  return landmark > last_pose ? last_pose + 1 : 0;
+}
+
 }  // namespace
 
 bool looks_like_isam(std::string_view text) {
@@ -113,6 +193,28 @@ std::string isam_to_g2o(std::string_view text, const std::string& file,
   std::string g2o = translate_lines(text, file, complaint, translate);
   if (offset_needed) g2o += "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n";
   return g2o;
+}
+
+Losses isam_losses(const Graph& graph) {
+  Losses losses;
+  add_edge_losses(losses, graph, holds_edge);
+  const std::vector<bool> used = mentioned(graph);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (!used[v]) add_loss(losses, graph.vertex_line[v], "a vertex without an edge", true);
+    if (graph.vertex_line[v] != implied) add_loss(losses, graph.vertex_line[v], "estimates", false);
+  }
+  for (Offset line : graph.fix_lines) add_loss(losses, line, "FIX", false);
+  return losses;
+}
+
+void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
+  const Id first = first_landmark(graph);
+  std::string out;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (!holds_edge(graph, e)) continue;
+    write_edge(graph, e, first, out);
+    sink.write(out += '\n');
+  }
 }
 
 }  // namespace sg

@@ -12,11 +12,18 @@
 // Source: the loader of iSAM 1.7 (Kaess).
 #pragma once
 
+#include "formats/convert.h"
 #include "formats/formats.h"
 
 namespace sg {
 
 bool looks_like_isam(std::string_view text);
 std::string isam_to_g2o(std::string_view text, const std::string& file, const Complaint& complaint);
+
+// Estimates are lost, and vertices without an edge. Landmark v becomes v - M - 1 where all
+// landmarks stand after the poses, so that reading brings its id back, and keeps its number
+// otherwise.
+Losses isam_losses(const Graph& graph);
+void write_isam(const Graph& graph, const WriteOptions& options, Sink& sink);
 
 }  // namespace sg

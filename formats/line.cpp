@@ -87,6 +87,21 @@ std::string translate_lines(std::string_view text, const std::string& file,
   return out;
 }
 
+void write_lines(std::string_view text, const TranslateLine& translate, Sink& sink) {
+  std::string out;
+  for_lines(text, [&](std::string_view line) {
+    out.clear();
+    auto rest = line;
+    if (next_word(rest).starts_with('#')) {
+      out = line;
+    } else {
+      translate(line, out);
+    }
+    if (!out.empty()) sink.write(out += '\n');
+    return true;
+  });
+}
+
 void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look) {
   for_lines(text, [&](std::string_view line) {
     const auto tag = next_word(line);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "formats/formats.h"
+#include "formats/write.h"
 #include "lib/graph/tokens.h"
 
 namespace sg {
@@ -41,6 +42,10 @@ void append_word(std::string& out, std::string_view word);
 using TranslateLine = std::function<void(std::string_view line, std::string& out)>;
 std::string translate_lines(std::string_view text, const std::string& file,
                             const Complaint& complaint, const TranslateLine& translate);
+
+// Writes what `translate` makes of every line of g2o text, in order. A line that it translates to
+// nothing is left out; comments stay.
+void write_lines(std::string_view text, const TranslateLine& translate, Sink& sink);
 
 // Calls `look` with the tag of every line that has one and is neither comment nor FIX, until it
 // returns true. How a format is told by content.

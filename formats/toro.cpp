@@ -45,6 +45,44 @@ void translate_edge3(std::string_view rest, std::string& out) {
   append_triangle<6>(out, to_quaternion_information(upper));
 }
 
+bool holds_vertex(const Graph& graph, Index v) {
+  const std::string_view tag = graph.type_of_vertex(v).tag;
+  return tag == "VERTEX_SE2" || tag == "VERTEX_SE3:QUAT" || tag == "VERTEX2" || tag == "VERTEX3";
+}
+
+bool holds_edge(const Graph& graph, Index e) {
+  const std::string_view tag = graph.type_of_edge(e).tag;
+  return tag == "EDGE_SE2" || tag == "EDGE_SE3:QUAT" || tag == "EDGE2" || tag == "EDGE3";
+}
+
+void write_se2(std::string_view rest, std::string& out) {
+  out = "VERTEX2";
+  append_ids(out, rest, 1);
+  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+}
+
+void write_edge_se2(std::string_view rest, std::string& out) {
+  out = "EDGE2";
+  append_ids(out, rest, 2);
+  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  std::array<std::string_view, 6> w;  // 11 12 13 22 23 33
+  for (auto& word : w) word = read_number_text(rest);
+  for (const int k : {0, 1, 3, 5, 2, 4}) append_word(out, w[k]);
+}
+
+void write_se3(std::string_view rest, std::string& out) {
+  out = "VERTEX3";
+  append_ids(out, rest, 1);
+  translate_quaternion_pose(rest, out);
+}
+
+void write_edge_se3(std::string_view rest, std::string& out) {
+  out = "EDGE3";
+  append_ids(out, rest, 2);
+  translate_quaternion_pose(rest, out);
+  append_triangle<6>(out, to_euler_information(read_triangle<6>(rest)));
+}
+
 }  // namespace
 
 bool looks_like_toro(std::string_view text) {
@@ -67,6 +105,27 @@ std::string toro_to_g2o(std::string_view text, const std::string& file,
     if (tag == "EDGE3") return translate_edge3(rest, out);
     out += line;
   });
+}
+
+Losses toro_losses(const Graph& graph) {
+  Losses losses;
+  add_edge_losses(losses, graph, holds_edge);
+  add_vertex_losses(losses, graph, holds_vertex);
+  for (Offset line : graph.fix_lines) add_loss(losses, line, "FIX", false);
+  return losses;
+}
+
+void write_toro(const Graph& graph, const WriteOptions&, Sink& sink) {
+  const auto translate = [](std::string_view line, std::string& out) {
+    auto rest = line;
+    const auto tag = next_word(rest);
+    if (tag == "VERTEX_SE2") return write_se2(rest, out);
+    if (tag == "VERTEX_SE3:QUAT") return write_se3(rest, out);
+    if (tag == "EDGE_SE2") return write_edge_se2(rest, out);
+    if (tag == "EDGE_SE3:QUAT") return write_edge_se3(rest, out);
+    if (tag == "VERTEX2" || tag == "VERTEX3" || tag == "EDGE2" || tag == "EDGE3") out = line;
+  };
+  write_lines(graph.text.view, translate, sink);
 }
 
 }  // namespace sg

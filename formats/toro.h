@@ -9,11 +9,15 @@
 // Source: TORO's own loader (Grisetti, Stachniss).
 #pragma once
 
+#include "formats/convert.h"
 #include "formats/formats.h"
 
 namespace sg {
 
 bool looks_like_toro(std::string_view text);
 std::string toro_to_g2o(std::string_view text, const std::string& file, const Complaint& complaint);
+
+Losses toro_losses(const Graph& graph);
+void write_toro(const Graph& graph, const WriteOptions& options, Sink& sink);
 
 }  // namespace sg

@@ -1,0 +1,75 @@
+#include "formats/convert.h"
+
+#include <algorithm>
+#include <array>
+
+#include "formats/dot.h"
+#include "formats/isam.h"
+#include "formats/metis.h"
+#include "formats/mtx.h"
+#include "formats/toro.h"
+#include "formats/tum.h"
+#include "lib/graph/error.h"
+
+namespace sg {
+namespace {
+
+Losses nothing(const Graph&) {
+  return {};
+}
+
+void write_g2o(const Graph& graph, const WriteOptions&, Sink& sink) {
+  sink.write(graph.text.view);
+}
+
+constexpr std::array formats{
+    WriteFormat{"g2o", "g2o text", nothing, write_g2o},
+    WriteFormat{"toro", "TORO", toro_losses, write_toro},
+    WriteFormat{"isam", "iSAM", isam_losses, write_isam},
+    WriteFormat{"mtx", "Matrix Market pattern of A^T A", nothing, write_mtx},
+    WriteFormat{"metis", "METIS graph", nothing, write_metis},
+    WriteFormat{"dot", "Graphviz", nothing, write_dot},
+    WriteFormat{"tum", "TUM trajectory", tum_losses, write_tum},
+};
+
+}  // namespace
+
+void add_loss(Losses& losses, Offset line, std::string_view what, bool structure) {
+  const auto it =
+      std::find_if(losses.begin(), losses.end(), [&](const Loss& l) { return l.what == what; });
+  if (it == losses.end()) {
+    losses.push_back({line, std::string(what), structure});
+  } else {
+    ++it->count;
+    if (it->first == implied || (line != implied && line < it->first)) it->first = line;
+  }
+}
+
+void add_edge_losses(Losses& losses, const Graph& graph, Holds holds_edge) {
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (!holds_edge(graph, e))
+      add_loss(losses, graph.edge_line[e], graph.type_of_edge(e).tag, true);
+  }
+}
+
+void add_vertex_losses(Losses& losses, const Graph& graph, Holds holds_vertex) {
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (!holds_vertex(graph, v))
+      add_loss(losses, graph.vertex_line[v], graph.type_of_vertex(v).tag, true);
+  }
+}
+
+std::span<const WriteFormat> write_formats() {
+  return formats;
+}
+
+const WriteFormat& find_write_format(std::string_view name) {
+  std::string known;
+  for (const WriteFormat& format : formats) {
+    if (format.name == name) return format;
+    known += (known.empty() ? "" : ", ") + std::string(format.name);
+  }
+  throw usage_error("unknown format '" + std::string(name) + "'; there are " + known);
+}
+
+}  // namespace sg
