@@ -14,10 +14,9 @@ Index last_pose(const Graph& graph, const PoseIndex& poses, Index e) {
 }
 
 // The step that gives every landmark (or other vertex) its min_obs-th observation, -1 where it
-// never comes. Returns which vertices an edge with a pose reaches.
-std::vector<bool> enter_observed(const Graph& graph, const PoseIndex& poses, int min_obs,
-                                 std::vector<Index>& vertex_step) {
-  std::vector<bool> observed(graph.vertices(), false);
+// never comes.
+void enter_observed(const Graph& graph, const PoseIndex& poses, int min_obs,
+                    std::vector<Index>& vertex_step) {
   std::vector<std::pair<Index, Index>> seen;  // (vertex, step of an observation)
   for (Index e = 0; e < graph.edges(); ++e) {
     const Index last = last_pose(graph, poses, e);
@@ -34,61 +33,40 @@ std::vector<bool> enter_observed(const Graph& graph, const PoseIndex& poses, int
     const std::size_t needed =
         graph.role(v) == Role::landmark ? static_cast<std::size_t>(min_obs) : 1;
     if (end - first >= needed) vertex_step[v] = seen[first + needed - 1].second;
-    observed[v] = true;
     first = end;
   }
-  return observed;
 }
 
-// The edges without a pose, and at every vertex those that reach it.
-struct PoselessEdges {
-  std::vector<Index> edges;
-  std::vector<Index> begin;  // n + 1, into at
-  std::vector<Index> at;     // into edges
-};
-
-PoselessEdges poseless_edges(const Graph& graph, const PoseIndex& poses) {
-  PoselessEdges result;
-  result.begin.assign(graph.vertices() + 1, 0);
+// Vertices that only edges without a pose reach enter with the first neighbour that is there: a
+// search from the vertices that have a step, earliest first, through those that no pose observes.
+void spread(const Graph& graph, const PoseIndex& poses, std::vector<Index>& vertex_step) {
+  std::vector<bool> observed(graph.vertices(), false);
+  std::vector<std::pair<Index, Index>> incident;  // (vertex, edge), of those edges
   for (Index e = 0; e < graph.edges(); ++e) {
-    if (last_pose(graph, poses, e) >= 0) continue;
-    result.edges.push_back(e);
-    for (Index v : graph.edge(e)) ++result.begin[v + 1];
+    if (last_pose(graph, poses, e) < 0) {
+      for (Index v : graph.edge(e)) incident.emplace_back(v, e);
+    } else {
+      for (Index v : graph.edge(e)) observed[v] = true;
+    }
   }
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.at.resize(result.begin.back());
-  std::vector<Index> next(result.begin.begin(), result.begin.end() - 1);
-  for (Index k = 0; k < static_cast<Index>(result.edges.size()); ++k) {
-    for (Index v : graph.edge(result.edges[k])) result.at[next[v]++] = k;
-  }
-  return result;
-}
-
-// Vertices that only edges without a pose reach enter with their first neighbour that is there:
-// flooded from the vertices that are, in the order of their steps. O(edges + n log n).
-void spread(const Graph& graph, const PoseIndex& poses, const std::vector<bool>& observed,
-            std::vector<Index>& vertex_step) {
-  const PoselessEdges poseless = poseless_edges(graph, poses);
-  std::vector<Index> sources;
-  for (Index v = 0; v < graph.vertices(); ++v) {
-    if (poseless.begin[v] < poseless.begin[v + 1] && vertex_step[v] >= 0) sources.push_back(v);
-  }
-  std::stable_sort(sources.begin(), sources.end(),
-                   [&](Index a, Index b) { return vertex_step[a] < vertex_step[b]; });
-  std::vector<bool> done(poseless.edges.size(), false);
+  std::sort(incident.begin(), incident.end());
   std::vector<Index> reached;
-  for (Index source : sources) {
-    reached.push_back(source);
-    while (!reached.empty()) {
-      const Index from = reached.back();
-      reached.pop_back();
-      for (Index k = poseless.begin[from]; k < poseless.begin[from + 1]; ++k) {
-        if (done[poseless.at[k]]) continue;
-        done[poseless.at[k]] = true;
-        for (Index v : graph.edge(poseless.edges[poseless.at[k]])) {
-          if (vertex_step[v] >= 0 || observed[v]) continue;
-          vertex_step[v] = vertex_step[source];
-          reached.push_back(v);
+  for (const auto& [v, e] : incident) {
+    if (vertex_step[v] >= 0 && (reached.empty() || reached.back() != v)) reached.push_back(v);
+  }
+  std::stable_sort(reached.begin(), reached.end(),
+                   [&](Index a, Index b) { return vertex_step[a] < vertex_step[b]; });
+
+  for (const Index source : reached) {
+    for (std::vector<Index> stack{source}; !stack.empty();) {
+      const Index v = stack.back();
+      stack.pop_back();
+      auto it = std::lower_bound(incident.begin(), incident.end(), std::pair<Index, Index>{v, 0});
+      for (; it != incident.end() && it->first == v; ++it) {
+        for (Index u : graph.edge(it->second)) {
+          if (vertex_step[u] >= 0 || observed[u]) continue;
+          vertex_step[u] = vertex_step[v];
+          stack.push_back(u);
         }
       }
     }
@@ -148,8 +126,8 @@ Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs) {
   Replay result;
   result.steps = static_cast<Index>(poses.pose.size());
   result.vertex_step = poses.index;
-  const auto observed = enter_observed(graph, poses, min_obs, result.vertex_step);
-  spread(graph, poses, observed, result.vertex_step);
+  enter_observed(graph, poses, min_obs, result.vertex_step);
+  spread(graph, poses, result.vertex_step);
   result.edge_step.assign(graph.edges(), -1);
   for (Index e = 0; e < graph.edges(); ++e) {
     Index step = -1;

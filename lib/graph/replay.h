@@ -30,9 +30,9 @@ std::vector<Index> segments(const Graph& graph, const PoseIndex& poses);
 
 // The replay. Step k adds pose k and every edge whose last pose is k; a landmark enters with the
 // step that gives it its min_obs-th observation and brings its earlier observations along. Vertices
-// and edges without a pose: a vertex that no pose sees enters with the first neighbour that is
-// there, an edge without pose enters as soon as all its vertices are there. Vertices or edges that
-// never enter (a landmark with fewer observations) have step -1.
+// and edges without a pose: a vertex enters with the first edge that reaches it, an edge without
+// pose enters as soon as all its vertices are there. Vertices or edges that never enter (a landmark
+// with fewer observations) have step -1.
 struct Replay {
   Index steps = 0;                 // number of poses
   std::vector<Index> vertex_step;  // n
