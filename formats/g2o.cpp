@@ -135,18 +135,18 @@ void parse_fix(Parser& parser, Offset at, std::string_view rest) {
   parser.graph.fix_lines.push_back(at);
 }
 
-void parse_comment(Parser& parser, std::string_view line) {
-  if (line.starts_with(order_comment)) {
-    line.remove_prefix(order_comment.size());
-    parser.graph.order_method = next_word(line);
-  }
+void parse_comment(Parser& parser, Offset at, std::string_view comment) {
+  if (!comment.starts_with(order_comment)) return;
+  comment.remove_prefix(order_comment.size());
+  parser.graph.order_method = next_word(comment);
+  parser.graph.order_lines.push_back(at);
 }
 
 void parse_line(Parser& parser, Offset at, std::string_view line) {
   auto rest = line;
   const auto tag = next_word(rest);
   if (tag.empty()) return;
-  if (tag.front() == '#') return parse_comment(parser, line.substr(tag.data() - line.data()));
+  if (tag.front() == '#') return parse_comment(parser, at, line.substr(tag.data() - line.data()));
   if (tag != parser.last_tag) {
     parser.last_meaning = parser.graph.tags.find(tag);
     parser.last_tag = tag;

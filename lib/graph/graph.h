@@ -46,10 +46,11 @@ struct Graph {
   std::vector<Index> edge_begin;     // m + 1, into edge_vertices
   std::vector<Index> edge_vertices;  // vertices of every edge, in file order
 
-  std::vector<Param> params;      // in file order
-  std::vector<Offset> fix_lines;  // in file order
-  std::string order_method;       // of the last `# sg-order: METHOD` comment, empty without one
-  bool edges_only = false;        // no VERTEX line in the file
+  std::vector<Param> params;        // in file order
+  std::vector<Offset> fix_lines;    // in file order
+  std::vector<Offset> order_lines;  // `# sg-order: METHOD` comments, in file order
+  std::string order_method;         // of the last of them, empty without one
+  bool edges_only = false;          // no VERTEX line in the file
 
   Index vertices() const { return static_cast<Index>(id.size()); }
   Index edges() const { return static_cast<Index>(edge_type.size()); }

@@ -1,0 +1,159 @@
+// sg-order: put a graph's variables in elimination order.
+#include "cmd/common/command.h"
+#include "formats/order_file.h"
+#include "formats/reorder.h"
+#include "lib/factor/initialize.h"
+#include "lib/graph/error.h"
+#include "lib/order/order.h"
+
+namespace {
+
+struct Options {
+  sg::Input input;
+  sg::OutputOptions output;
+  std::string method = "colamd";
+  std::string apply;
+  bool print = false;
+  std::vector<sg::Id> last;
+  std::uint64_t seed = 0;
+};
+
+// The names of the table, in lines that fit a terminal beside the options.
+std::string method_help(const std::string& first) {
+  constexpr std::size_t width = 50;
+  std::string help = "Default: " + first + "; one of ";
+  std::size_t line_end = width;
+  for (const sg::Ordering& ordering : sg::orderings()) {
+    const std::string word = std::string(ordering.name) + ", ";
+    if (help.size() + word.size() > line_end) {
+      help.back() = '\n';
+      line_end = help.size() + width;
+    }
+    help += word;
+  }
+  help.resize(help.size() - 2);
+  return help;
+}
+
+void add_options(sg::Command& command, Options& options) {
+  sg::add_input(command, options.input);
+  auto& app = command.app;
+  auto* method = app.add_option("-m,--method", options.method, method_help(options.method))
+                     ->option_text("METHOD");
+  app.add_option("--apply", options.apply, "Take the order from FILE: ids in its first column")
+      ->option_text("FILE")
+      ->excludes(method);
+  app.add_option("--last", options.last, "Eliminate these vertices after all others")
+      ->option_text("ID,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--seed", options.seed, "Seed of metis, scotch and random (default: 0)")
+      ->option_text("N");
+  app.add_flag("--print", options.print, "Print the ids in their order instead of the graph");
+  sg::add_filter_output(command, options.output);
+}
+
+std::vector<sg::Index> last_variables(const Options& options, const sg::Graph& graph,
+                                      const sg::GraphPattern& variables) {
+  std::vector<sg::Index> last;
+  for (const sg::Id id : options.last) {
+    const auto v = sg::find_vertex(graph, id);
+    if (!v) throw sg::usage_error("--last: vertex " + std::to_string(id) + " is not in the graph");
+    const sg::Index j = variables.vertex_variable[*v];
+    if (j < 0) throw sg::usage_error("--last: vertex " + std::to_string(id) + " is fixed");
+    last.push_back(j);
+  }
+  return last;
+}
+
+sg::Order computed_order(const Options& options, const sg::Graph& graph,
+                         const sg::GraphPattern& variables) {
+  sg::OrderOptions order_options = sg::order_options(graph, variables);
+  order_options.last = last_variables(options, graph, variables);
+  order_options.seed = options.seed;
+  return sg::elimination_order(options.method, variables.pattern, order_options);
+}
+
+// The order of --apply, --last being kept all the same.
+sg::Order applied_order(const Options& options, const sg::Graph& graph,
+                        const sg::GraphPattern& variables) {
+  const sg::Text text = sg::read_text(options.apply);
+  const std::string file = options.apply == "-" ? "<stdin>" : options.apply;
+  sg::OrderOptions order_options;
+  order_options.file_order = sg::parse_order(text.view, file, graph, variables);
+  order_options.last = last_variables(options, graph, variables);
+  return sg::elimination_order("file", variables.pattern, order_options);
+}
+
+// The order's vertices, and after them the fixed ones as the file has them.
+std::vector<sg::Index> vertices_in_order(const sg::Graph& graph, const sg::GraphPattern& variables,
+                                         const sg::Order& order) {
+  std::vector<sg::Index> vertices;
+  vertices.reserve(graph.vertices());
+  for (const sg::Index j : order) vertices.push_back(variables.variable_vertex[j]);
+  for (const sg::Index v : sg::file_order(graph)) {
+    if (graph.fixed[v]) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+void print_ids(const Options& options, const sg::Graph& graph, const sg::GraphPattern& variables,
+               const sg::Order& order) {
+  sg::Output output(options.output.path);
+  for (const sg::Index j : order) {
+    output.write(std::to_string(graph.id[variables.variable_vertex[j]]) + "\n");
+  }
+  output.commit();
+}
+
+// VERTEX lines for a file that has none, before its first edge.
+sg::Edit vertex_lines(const sg::Graph& graph, const std::vector<sg::Index>& vertices) {
+  const sg::Problem problem = sg::make_problem(graph);
+  const sg::Values values = sg::initial_values(problem);
+  sg::Edit edit{graph.edge_line.front(), graph.edge_line.front(), ""};
+  for (const sg::Index v : vertices) {
+    edit.replacement += graph.type_of_vertex(v).tag + " " + std::to_string(graph.id[v]) + " " +
+                        sg::estimate_text(problem, values, v) + "\n";
+  }
+  return edit;
+}
+
+void write_graph(const sg::Command& command, const Options& options, const sg::Graph& graph,
+                 const std::vector<sg::Index>& vertices) {
+  sg::Changes changes = sg::unchanged(graph);
+  if (graph.edges_only) {
+    changes.edits.push_back(vertex_lines(graph, vertices));
+  } else {
+    changes.edits = sg::reordered(graph, vertices);
+  }
+  for (const sg::Offset line : graph.order_lines) {
+    const auto [begin, end] = sg::line_extent(graph, line);
+    changes.edits.push_back({begin, end, ""});
+  }
+  const std::string marker =
+      "# sg-order: " + (options.apply.empty() ? options.method : "apply") + "\n";
+  sg::Output output(options.output.path);
+  sg::write_changed(graph, std::move(changes), sg::trace_comment(command, options.output) + marker,
+                    output);
+  output.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  sg::Command command("sg-order", "Put the variables of a graph in elimination order.");
+  Options options;
+  add_options(command, options);
+  return sg::run(command, argc, argv, [&] {
+    sg::find_ordering(options.method);  // before a long read
+    if (options.apply == "-" && options.input.path == "-") {
+      throw sg::usage_error("graph and order cannot both come from standard input");
+    }
+    const sg::Graph graph = sg::read(options.input);
+    const sg::GraphPattern variables = sg::graph_pattern(graph);
+    const sg::Order order =
+        (options.apply.empty() ? computed_order : applied_order)(options, graph, variables);
+    if (options.print) return print_ids(options, graph, variables, order);
+    write_graph(command, options, graph, vertices_in_order(graph, variables, order));
+  });
+}

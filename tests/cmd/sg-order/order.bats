@@ -1,0 +1,108 @@
+load ../common
+
+setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
+
+# Lines that are neither VERTEX nor data lines nor comments of sg-order, each with its number less the comments on top.
+others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
+
+@test "VERTEX lines stand in elimination order, all else stays" {
+  for method in file id landmarks-first colamd amd metis scotch mmd rcm king sloan random; do
+    sg-order -m $method walk.g2o >out.g2o
+    sg-order -m $method --print walk.g2o >order
+    { cat order; echo 0; } | cmp - <(awk '/^VERTEX/ {print $2}' out.g2o)
+    cmp <(others walk.g2o) <(others out.g2o)
+    cmp <(grep ^VERTEX walk.g2o | sort) <(grep ^VERTEX out.g2o | sort)
+    grep -qx "# sg-order: $method" out.g2o
+  done
+}
+
+@test "what was ordered before is forgotten" {
+  sg-order -m random walk.g2o | sg-order -m amd | sg-order -m id >out.g2o
+  [ "$(grep '^# sg-order: ' out.g2o)" = "# sg-order: id" ]
+  sg-order -m id --no-trace-comment walk.g2o >id.g2o
+  cmp <(grep -v '^# sg-order -' out.g2o) id.g2o
+}
+
+@test "a file that is in order already keeps its bytes" {
+  printf '\n VERTEX_SE2 1  1.0 0 -0\r\nROBOTLASER1 0 1\nEDGE_SE2 2 1 1 0 0 1 0 0 1 0 1\n\nVERTEX_SE2 2 1e0 0 0' >in.g2o
+  sg-order -m file --no-trace-comment in.g2o | grep -v '^# sg-order: file$' >out.g2o
+  cmp <(cat in.g2o; echo) out.g2o  # grep ends the last line
+  [ "$(sg-order -m file --no-trace-comment in.g2o | wc -c)" -eq $(($(wc -c <in.g2o) + 17)) ]
+}
+
+@test "data lines go with their vertex, and the last line needs no newline" {
+  printf 'VERTEX_SE2 1 1 0 0\nROBOTLASER1 0 1\nROBOTLASER1 0 2\n# between\nVERTEX_SE2 2 2 0 0' >in.g2o
+  printf '2\n1\n' >order
+  sg-order --apply order --no-trace-comment in.g2o >out.g2o
+  printf '# sg-order: apply\nVERTEX_SE2 2 2 0 0\n# between\nVERTEX_SE2 1 1 0 0\nROBOTLASER1 0 1\nROBOTLASER1 0 2' |
+    cmp - out.g2o
+}
+
+@test "a file of edges gets VERTEX lines, composed along odometry" {
+  printf 'EDGE_SE2 5 6 1 2 0 1 0 0 1 0 1\nEDGE_SE2 6 7 1 2 0 1 0 0 1 0 1\n' >in.g2o
+  printf '7\n5\n6\n' >order
+  sg-order --apply order --no-trace-comment in.g2o >out.g2o
+  { printf '# sg-order: apply\nVERTEX_SE2 7 2 4 0\nVERTEX_SE2 5 0 0 0\nVERTEX_SE2 6 1 2 0\n'; cat in.g2o; } | cmp - out.g2o
+}
+
+@test "an order is applied from any column of ids" {
+  printf '# mine\nid\tcost\n\n4\t1\n 3 2\n2\n100\n1\n101\n' | sg-order --apply - --print walk.g2o >out
+  printf '4\n3\n2\n100\n1\n101\n' | cmp - out
+}
+
+@test "an order that is none of the graph's is refused, by line" {
+  printf '4\n3\n3\n' >order
+  fails 1 "sg-order: order:3: vertex 3 is named a second time" sg-order --apply order walk.g2o
+  printf '4\n17\n' >order
+  fails 1 "sg-order: order:2: vertex 17 is not in the graph" sg-order --apply order walk.g2o
+  printf '4\nx3\n' >order
+  fails 1 "sg-order: order:2: 'x3' is no vertex id" sg-order --apply order walk.g2o
+  printf '4\n3\n2\n100\n1\n' >order
+  fails 1 "sg-order: order: vertex 101 is not in the order" sg-order --apply order walk.g2o
+  printf '4\n3\n' >order
+  fails 1 "sg-order: order: vertex 1 and 3 more of the graph are not in the order" sg-order --apply order walk.g2o
+}
+
+@test "--last is kept by every method" {
+  for method in file id landmarks-first colamd amd metis scotch mmd rcm king sloan random; do
+    sg-order -m $method --last 1,100 --print walk.g2o >order
+    [ "$(tail -n 2 order | sort -n | xargs)" = "1 100" ]
+    [ "$(wc -l <order)" -eq 6 ]
+  done
+  printf '1\n3\n2\n100\n4\n101\n' | sg-order --apply - --last 1 --print walk.g2o >order
+  printf '3\n2\n100\n4\n101\n1\n' | cmp - order
+}
+
+@test "the seed decides a random order" {
+  sg-order -m random --print walk.g2o >a
+  sg-order -m random --seed 0 --print walk.g2o | cmp - a
+  sg-order -m random --seed 7 --print walk.g2o >b
+  ! cmp -s a b
+}
+
+@test "a graph whose vertices are all fixed has an empty order" {
+  printf 'VERTEX_SE2 2 1 0 0\nVERTEX_SE2 1 1 0 0\nFIX 1 2\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n' >in.g2o
+  [ -z "$(sg-order --print in.g2o)" ]
+  sg-order --no-trace-comment in.g2o >out.g2o
+  { echo '# sg-order: colamd'; cat in.g2o; } | cmp - out.g2o
+}
+
+@test "wrong calls" {
+  local names
+  names=$(sg-order --help | tr -d '\n' | tr -s ' ' | sed 's/.*one of \(.*\) --apply.*/\1/')
+  fails 2 "sg-order: no ordering is called 'colmad'; there are $names (see sg-order --help)" sg-order -m colmad walk.g2o
+  fails 2 "sg-order: --last: vertex 17 is not in the graph (see sg-order --help)" sg-order --last 17 walk.g2o
+  fails 2 "sg-order: --last: vertex 0 is fixed (see sg-order --help)" sg-order --last 4,0 walk.g2o
+  fails 2 "sg-order: graph and order cannot both come from standard input (see sg-order --help)" sg-order --apply -
+  fails 2 "sg-order: --method excludes --apply (see sg-order --help)" sg-order --apply order -m id walk.g2o
+}
+
+@test "public graphs: the order survives the file" {
+  need_data
+  for file in "$SGTOOLS_DATA"/{tinyGrid3D.g2o,CSAIL.g2o,intel.g2o,kitti_00.g2o,sphere400.isam.txt,victoriaPark.isam.txt}; do
+    sg-order -m amd "$file" >out.g2o
+    cmp <(sg-order -m amd --print "$file") <(sg-order -m file --print out.g2o)
+    # ids decide ties, not lines: the same again from the new file
+    cmp <(sg-order -m colamd --print "$file") <(sg-order -m colamd --print out.g2o)
+  done
+}

@@ -1,0 +1,103 @@
+#include "formats/reorder.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <random>
+
+#include "formats/formats.h"
+#include "lib/graph/tokens.h"
+
+namespace {
+
+using sg::Index;
+
+struct StringSink final : sg::Sink {
+  std::string text;
+  void write(std::string_view bytes) override { text += bytes; }
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+bool is_vertex_or_data(std::string_view line) {
+  const auto tag = sg::next_word(line);
+  return tag.starts_with("VERTEX") || tag == "ROBOTLASER1";
+}
+
+// Vertices of random ids with 0 to 2 data lines, edges, comments and blank lines in between; the
+// last line ends without a newline half of the time.
+std::string odd_file(std::mt19937& random, Index n) {
+  std::vector<int> ids(n);
+  std::iota(ids.begin(), ids.end(), 3);
+  std::shuffle(ids.begin(), ids.end(), random);
+  std::string text;
+  for (const int id : ids) {
+    text += "VERTEX_SE2 " + std::to_string(id) + " " + std::to_string(random() % 100) + ".50 0 0\n";
+    for (auto k = random() % 3; k > 0; --k) text += "ROBOTLASER1 " + std::to_string(id) + "\n";
+    if (random() % 3 == 0) text += "EDGE_SE2 3 4 1 0 0 1 0 0 1 0 1\n";
+    if (random() % 3 == 0) text += "# a comment\n";
+    if (random() % 3 == 0) text += "  \r\n";
+  }
+  if (random() % 2 == 0) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("reordered VERTEX lines change places and nothing else", "[reorder]") {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto n = static_cast<Index>(2 + random() % 20);
+    const std::string text = odd_file(random, n);
+    const sg::Graph graph = sg::read_graph_text(sg::text_of(text), "test");
+    std::vector<Index> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random);
+    sg::Changes changes = sg::unchanged(graph);
+    changes.edits = sg::reordered(graph, order);
+    StringSink sink;
+    sg::write_changed(graph, std::move(changes), "", sink);
+
+    const sg::Graph result = sg::read_graph_text(sg::text_of(sink.text), "test");
+    CHECK(sg::file_order(result) == order);
+    CHECK(result.id == graph.id);
+    CHECK(sink.text.size() == text.size());
+    for (Index v = 0; v < n; ++v) {
+      const auto lines = [&](const sg::Graph& g) {
+        const auto [begin, end] = sg::vertex_extent(g, v);
+        return lines_of(std::string(g.text.view.substr(begin, end - begin)));
+      };
+      CHECK(lines(result) == lines(graph));
+    }
+    auto before = lines_of(text);
+    auto after = lines_of(sink.text);
+    std::erase_if(before, is_vertex_or_data);
+    std::erase_if(after, is_vertex_or_data);
+    CHECK(before == after);
+  }
+}
+
+TEST_CASE("an order that is the file's own edits nothing", "[reorder]") {
+  std::mt19937 random(6);
+  const sg::Graph graph = sg::read_graph_text(sg::text_of(odd_file(random, 9)), "test");
+  CHECK(sg::reordered(graph, sg::file_order(graph)).empty());
+}
+
+TEST_CASE("sg-order comments are found and the last one counts", "[reorder]") {
+  const sg::Graph graph = sg::read_graph_text(
+      sg::text_of("# sg-order: amd\nVERTEX_SE2 1 0 0 0\n  # sg-order: metis with care\n"
+                  "# sg-order -m id\n# sg-ordered: no\n"),
+      "test");
+  CHECK(graph.order_method == "metis");
+  REQUIRE(graph.order_lines.size() == 2);
+  CHECK(sg::line_at(graph, graph.order_lines[0]) == "# sg-order: amd");
+  CHECK(sg::line_number(graph, graph.order_lines[1]) == 3);
+}
