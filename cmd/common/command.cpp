@@ -35,6 +35,11 @@ void add_read_options(Command& command, ReadOptions& options) {
       ->allow_extra_args(false);
 }
 
+void add_output(CLI::App& app, OutputOptions& output) {
+  app.add_option("-o,--output", output.path, "Write to FILE, whole or not at all")
+      ->option_text("FILE");
+}
+
 int report(const Command& command, const Error& error) {
   std::cerr << command.name << ": " << message(error) << '\n';
   return static_cast<int>(error.fault);
@@ -134,15 +139,17 @@ Graph read(const Inputs& inputs, const std::string& path) {
   return read(Input{path, inputs.options});
 }
 
-void add_output(Command& command, OutputOptions& output) {
-  command.app.add_option("-o,--output", output.path, "Write to FILE, whole or not at all")
-      ->option_text("FILE");
+void add_filter_output(Command& command, OutputOptions& output) {
+  add_filter_output(command.app, output);
 }
 
-void add_filter_output(Command& command, OutputOptions& output) {
-  add_output(command, output);
-  command.app.add_flag("!--no-trace-comment", output.trace_comment,
-                       "Leave no comment of this call");
+void add_filter_output(CLI::App& app, OutputOptions& output) {
+  add_output(app, output);
+  app.add_flag("!--no-trace-comment", output.trace_comment, "Leave no comment of this call");
+}
+
+void add_output(Command& command, OutputOptions& output) {
+  add_output(command.app, output);
 }
 
 std::string trace_comment(const Command& command, const OutputOptions& output) {

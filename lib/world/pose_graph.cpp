@@ -1,0 +1,38 @@
+#include "lib/world/pose_graph.h"
+
+namespace sg {
+namespace {
+
+template <class Pose>
+void write_edges(const PoseGraph<Pose>& graph, Copy copy, Odometry<Pose> odometry, Out& out) {
+  Random random = random_stream(graph.seed, Stream::measurements);
+  auto loop = graph.loops.begin();
+  for (Index k = 1; k < graph.poses; ++k) {
+    edge_line(out, k - 1, k, measured_motion(odometry, k), graph.odometry_noise);
+    for (; loop != graph.loops.end() && loop->to == k; ++loop) {
+      const Pose z = between(graph.truth(loop->from), graph.truth(k));
+      edge_line(out, loop->from, k,
+                copy == Copy::exact ? rounded(z) : disturbed(z, graph.loop_noise, random),
+                graph.loop_noise);
+    }
+  }
+}
+
+template <class Pose>
+void write(const PoseGraph<Pose>& graph, Copy copy, Out& out) {
+  const auto motions = odometry(graph.truth, graph.odometry_noise, copy, graph.seed);
+  for_each_estimate(graph.poses, motions, graph.guess,
+                    [&](Index k, const Pose& pose) { vertex_line(out, k, pose); });
+  write_edges(graph, copy, motions, out);
+}
+
+}  // namespace
+
+void write_graph(const PoseGraph<SE2>& graph, Copy copy, Out& out) {
+  write(graph, copy, out);
+}
+void write_graph(const PoseGraph<SE3>& graph, Copy copy, Out& out) {
+  write(graph, copy, out);
+}
+
+}  // namespace sg

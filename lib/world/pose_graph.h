@@ -1,0 +1,33 @@
+// A world of poses only: odometry from each to the next, and loop closures.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "lib/world/odometry.h"
+
+namespace sg {
+
+struct Loop {
+  Index from;  // the earlier pose
+  Index to;
+};
+
+template <class Pose>  // SE2 or SE3
+struct PoseGraph {
+  Index poses;
+  std::function<Pose(Index)> truth;  // of pose 0, 1, ...
+  std::vector<Loop> loops;           // by ascending `to`
+  PoseNoise odometry_noise;
+  PoseNoise loop_noise;
+  Guess guess;
+  std::uint64_t seed;
+};
+
+// VERTEX lines by ascending id from 0 on, then the edges in the order in which a robot would meet
+// them: with every pose its odometry first, its loop closures after that. Does not flush.
+void write_graph(const PoseGraph<SE2>& graph, Copy copy, Out& out);
+void write_graph(const PoseGraph<SE3>& graph, Copy copy, Out& out);
+
+}  // namespace sg

@@ -1,0 +1,99 @@
+#include "lib/world/sine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sg {
+namespace {
+
+// y = A sin(w x), by its slope.
+struct Path {
+  double amplitude;
+  double w;
+  double slope(double x) const { return amplitude * w * std::cos(w * x); }
+};
+
+// dx/ds along the path, s its length.
+double advance(const Path& path, double x) {
+  const double slope = path.slope(x);
+  return 1 / std::sqrt(1 + slope * slope);
+}
+
+// Where x is after `step` metres along the path, by Runge-Kutta of fourth order in substeps that are
+// short against the wavelength.
+double walk(const Path& path, double x, double step) {
+  const int substeps = 4 + static_cast<int>(std::min(1000.0, 10 * step * std::abs(path.w)));
+  const double h = step / substeps;
+  for (int i = 0; i < substeps; ++i) {
+    const double k1 = advance(path, x), k2 = advance(path, x + h / 2 * k1);
+    const double k3 = advance(path, x + h / 2 * k2), k4 = advance(path, x + h * k3);
+    x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return x;
+}
+
+std::vector<SE2> path_poses(const Sine& world) {
+  const Path path{world.amplitude, 2 * std::numbers::pi / world.wavelength};
+  std::vector<SE2> poses;
+  poses.reserve(world.poses);
+  double x = 0;
+  for (Index k = 0; k < world.poses; ++k) {
+    poses.push_back(
+        rounded(SE2{x, path.amplitude * std::sin(path.w * x), std::atan(path.slope(x))}));
+    x = rounded(walk(path, x, world.step));
+  }
+  return poses;
+}
+
+// Uniform in the slab, by ascending x.
+std::vector<Eigen::Vector3d> scattered_landmarks(const Sine& world, double end) {
+  const double from = -world.optics.range, to = end + world.optics.range;
+  const double area = (to - from) * 2 * world.width;
+  const auto count =
+      world.landmarks > 0 ? world.landmarks : static_cast<Index>(std::lround(world.density * area));
+  Random random = random_stream(world.seed, Stream::structure);
+  std::vector<Eigen::Vector3d> landmarks(count);
+  for (auto& l : landmarks) {
+    l.x() = rounded(uniform(random, from, to));
+    l.y() = rounded(uniform(random, -world.width, world.width));
+    l.z() = rounded(uniform(random, -world.height, world.height));
+  }
+  std::ranges::sort(landmarks, {}, [](const auto& l) { return std::tuple(l.x(), l.y()); });
+  return landmarks;
+}
+
+void look(const Sine& world, LandmarkGraph& graph) {
+  const double range = world.optics.range;
+  Index first = 0;  // landmark that may be in range; the path never turns back
+  for (const SE2& pose : graph.poses) {
+    const auto count = static_cast<Index>(graph.landmarks.size());
+    while (first < count && graph.landmarks[first].x() < pose.x - range) ++first;
+    for (Index l = first; l < count && graph.landmarks[l].x() <= pose.x + range; ++l) {
+      const Eigen::Vector3d& landmark = graph.landmarks[l];
+      Eigen::Vector3d point;
+      point << act(inverse(pose), landmark.head<2>()), landmark.z();
+      if (sees(world.optics, world.sensor, point)) graph.seen.push_back(l);
+    }
+    graph.seen_begin.push_back(static_cast<Index>(graph.seen.size()));
+  }
+}
+
+}  // namespace
+
+LandmarkGraph sine(const Sine& world) {
+  LandmarkGraph graph;
+  graph.sensor = world.sensor;
+  graph.optics = world.optics;
+  graph.odometry_noise = world.odometry_noise;
+  graph.guess_noise = world.guess_noise;
+  graph.guess = world.guess;
+  graph.seed = world.seed;
+  graph.poses = path_poses(world);
+  graph.landmarks = scattered_landmarks(world, graph.poses.back().x);
+  look(world, graph);
+  keep_triangulated(graph, world.landmark);
+  return graph;
+}
+
+}  // namespace sg
