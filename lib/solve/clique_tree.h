@@ -1,0 +1,47 @@
+// The cliques that an elimination works through, with their variables.
+//
+// They are the Bayes tree's of lib/elim, relaxed: a clique joins its parent where one larger front
+// takes less time than two and the passage between them (Ashcraft and Grimes, The influence of
+// relaxed supernode partitions on the multifrontal method, 1989). EC_BT stays that of the Bayes
+// tree itself: every clique carries the sum over those that it was made of.
+//
+// Cliques stand in postorder, children before parents. Variables are renumbered along with them:
+// `frontals` is an elimination order of the same fill as the given one, in which every clique's are
+// consecutive.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+struct CliqueTree {
+  std::vector<Index> parent;           // C, -1 at a root
+  std::vector<Index> frontal_begin;    // C + 1, into frontals
+  std::vector<Index> frontals;         // n, in elimination order
+  std::vector<Index> separator_begin;  // C + 1, into separators
+  std::vector<Index> separators;       // in elimination order
+  std::vector<int> frontal_dim;        // C, scalars
+  std::vector<int> separator_dim;      // C, scalars
+  std::vector<std::int64_t> ec;        // C, its share of EC_BT
+  std::vector<Index> merged;           // C, cliques of the Bayes tree in it
+  std::vector<Index> row_clique;       // m: where every row is assembled, -1 for an empty row
+
+  Index cliques() const { return static_cast<Index>(parent.size()); }
+  std::span<const Index> frontals_of(Index c) const {
+    return {frontals.data() + frontal_begin[c],
+            static_cast<std::size_t>(frontal_begin[c + 1] - frontal_begin[c])};
+  }
+  std::span<const Index> separators_of(Index c) const {
+    return {separators.data() + separator_begin[c],
+            static_cast<std::size_t>(separator_begin[c + 1] - separator_begin[c])};
+  }
+};
+
+// relaxed: whether cliques may be merged; without, they are the Bayes tree's.
+CliqueTree clique_tree(const Pattern& pattern, const Order& order, bool relaxed = true);
+
+}  // namespace sg

@@ -1,0 +1,80 @@
+// A frontal matrix: the dense symmetric system that one clique of the Bayes tree eliminates, and
+// the kernels that work on it.
+//
+// Its n = f + s + 1 rows are the f scalars of the frontal variables, the s scalars of the
+// separator, and the right-hand side: the Gram matrix [A b]' [A b] of what meets in the clique. The
+// lower triangle is kept by column in two pieces, since they live for different times:
+//     l   f columns of all n rows          becomes [L11; L21; y'], the clique's conditional
+//     u   s + 1 columns of the last s + 1  becomes the Schur complement, the update for the parent
+// A column starts at a multiple of its leading dimension, which is the row count rounded up to
+// `lane`; what lies above the diagonal within a lane, and below the last row, is never read as a
+// number of the matrix. Kernels read up to `lane` numbers past the end of a piece: keep that much
+// slack behind the last one.
+//
+// Partial Cholesky:  F11 = L11 L11',  L21 = F21 L11^-T,  U = F22 - L21 L21'.  The last row of L21
+// is y = L11^-1 b, and the step solves  L11' x_f = y - L21' x_s. Source: Duff and Reid, The
+// multifrontal solution of indefinite sparse symmetric linear equations (1983); Davis, Direct
+// Methods, section 4.8 and 6.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace sg {
+
+constexpr int lane = 8;
+constexpr int round_up(int rows) {
+  return (rows + lane - 1) / lane * lane;
+}
+
+struct Front {
+  double* l;
+  double* u;
+  int f;  // frontal scalars
+  int n;  // all rows: frontal, separator, right-hand side
+
+  int s() const { return n - 1 - f; }
+  int ld_l() const { return round_up(n); }
+  int ld_u() const { return round_up(n - f); }
+  std::int64_t size_l() const { return std::int64_t{f} * ld_l(); }
+  std::int64_t size_u() const { return std::int64_t{n - f} * ld_u(); }
+};
+
+// Consecutive rows of a small symmetric matrix and of the front that it is added to.
+struct Run {
+  int from;
+  int to;
+  int length;
+};
+
+// The kernels are compiled for several instruction sets; the machine decides once which it uses.
+// Sums are taken in another order on another instruction set, but always in the same one on the
+// same machine.
+struct Kernels {
+  const char* name;
+
+  void (*clear)(const Front& front);
+
+  // gram := block' block, the full square by column. The block is height x width, by column.
+  // `work`: height * (width + lane) numbers; gram has `lane` numbers of slack.
+  void (*gram)(const double* block, int height, int width, double* gram, double* work);
+
+  // front += matrix, lower triangle only: rows and columns `from` go to `to`. The runs ascend in
+  // `to`; where they do not in `from`, the full square of the matrix is read, not only its lower
+  // triangle.
+  void (*add)(const Front& front, const double* matrix, int ld, const Run* runs, int count);
+
+  // Partial Cholesky. A pivot that is not above its `floor` (f numbers) is dropped: its column
+  // becomes zero, as if the scalar were held. Returns how many were.
+  int (*factorize)(const Front& front, const double* floor);
+
+  // x has ld_l numbers: x_s in its place, -1 for the right-hand side, 0 elsewhere; fills in x_f.
+  void (*back_substitute)(const Front& front, double* x);
+};
+
+const Kernels& kernels();
+
+// All that this machine can run, the plainest first.
+std::span<const Kernels* const> all_kernels();
+
+}  // namespace sg

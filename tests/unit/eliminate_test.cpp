@@ -1,0 +1,347 @@
+// The multifrontal elimination against dense algebra, and its cliques against lib/elim's.
+#include "lib/solve/eliminate.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_int_distribution.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "formats/formats.h"
+#include "lib/elim/score.h"
+#include "lib/factor/initialize.h"
+#include "lib/order/order.h"
+
+namespace {
+
+using Random = boost::random::mt19937_64;
+
+int draw(Random& random, int least, int most) {
+  return boost::random::uniform_int_distribution<int>(least, most)(random);
+}
+double draw_real(Random& random) {
+  return boost::random::uniform_real_distribution<double>(-1, 1)(random);
+}
+
+struct System {
+  sg::Pattern pattern;
+  sg::LinearSystem linear;
+};
+
+void add_row(System& system, int height, const std::vector<sg::Index>& variables, Random& random) {
+  if (system.pattern.row_begin.empty()) system.pattern.row_begin.push_back(0);
+  if (system.linear.begin.empty()) system.linear.begin.push_back(0);
+  int width = 1;
+  for (sg::Index j : variables) {
+    system.pattern.row_variables.push_back(j);
+    width += system.pattern.dim[j];
+  }
+  system.pattern.row_begin.push_back(static_cast<sg::Index>(system.pattern.row_variables.size()));
+  system.linear.height.push_back(height);
+  for (int k = 0; k < height * width; ++k) system.linear.numbers.push_back(draw_real(random));
+  system.linear.begin.push_back(static_cast<sg::Offset>(system.linear.numbers.size()));
+}
+
+// Several components, repeated rows, rows of one to four variables in any order; every variable has
+// a prior unless it is in `loose`.
+System random_system(Random& random, int variables, int rows,
+                     const std::vector<sg::Index>& loose = {}) {
+  System system;
+  for (int j = 0; j < variables; ++j) system.pattern.dim.push_back(draw(random, 1, 7));
+  for (int j = 0; j < variables; ++j) {
+    if (std::find(loose.begin(), loose.end(), j) == loose.end())
+      add_row(system, system.pattern.dim[j] + draw(random, 0, 1), {j}, random);
+  }
+  for (int r = 0; r < rows; ++r) {
+    std::vector<sg::Index> row;
+    const int at = draw(random, 0, variables - 1);
+    for (int k = draw(random, 1, 4); k > 0; --k) {
+      const int j = std::clamp(at + draw(random, -4, 4), 0, variables - 1);
+      const bool taken = std::find(row.begin(), row.end(), j) != row.end() ||
+                         std::find(loose.begin(), loose.end(), j) != loose.end();
+      if (!taken) row.push_back(j);
+    }
+    if (!row.empty()) add_row(system, draw(random, 1, 6), row, random);
+  }
+  return system;
+}
+
+struct Dense {
+  Eigen::MatrixXd a;
+  Eigen::VectorXd b;
+};
+
+Dense dense(const System& system) {
+  std::vector<int> at{0};
+  for (int dim : system.pattern.dim) at.push_back(at.back() + dim);
+  int rows = 0;
+  for (int height : system.linear.height) rows += height;
+  Dense result{Eigen::MatrixXd::Zero(rows, at.back()), Eigen::VectorXd::Zero(rows)};
+  int row = 0;
+  for (sg::Index r = 0; r < system.pattern.rows(); ++r) {
+    const int height = system.linear.height[r];
+    const double* column = system.linear.block(r);
+    for (sg::Index j : system.pattern.row(r)) {
+      for (int k = 0; k < system.pattern.dim[j]; ++k, column += height)
+        result.a.block(row, at[j] + k, height, 1) =
+            Eigen::Map<const Eigen::VectorXd>(column, height);
+    }
+    result.b.segment(row, height) = Eigen::Map<const Eigen::VectorXd>(column, height);
+    row += height;
+  }
+  return result;
+}
+
+sg::Order random_order(Random& random, int n) {
+  sg::Order order(n);
+  for (int k = 0; k < n; ++k) order[k] = k;
+  for (int k = n - 1; k > 0; --k) std::swap(order[k], order[draw(random, 0, k)]);
+  return order;
+}
+
+Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& step) {
+  return {step.data(), static_cast<Eigen::Index>(step.size())};
+}
+
+// A front with a positive definite matrix, and that matrix in full.
+struct DenseFront {
+  std::vector<double> l, u;
+  sg::Front front;
+  Eigen::MatrixXd full;
+
+  DenseFront(Random& random, int f, int s) : front{nullptr, nullptr, f, f + s + 1} {
+    l.assign(front.size_l() + sg::lane, 0);
+    u.assign(front.size_u() + sg::lane, 0);
+    front.l = l.data();
+    front.u = u.data();
+    const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(
+        front.n + 2, front.n, [&](Eigen::Index, Eigen::Index) { return draw_real(random); });
+    full = root.transpose() * root;
+  }
+  double& at(int i, int j) {
+    if (j < front.f) return l[j * front.ld_l() + i];
+    return u[(j - front.f) * front.ld_u() + i - front.f];
+  }
+};
+
+}  // namespace
+
+TEST_CASE("kernels of every instruction set do dense partial Cholesky", "[eliminate]") {
+  Random random(1);
+  for (const sg::Kernels* kernel : sg::all_kernels()) {
+    INFO(kernel->name);
+    for (int f = 1; f < 30; f += 1 + f / 8) {
+      for (int s = 0; s < 60; s += 1 + s / 3) {
+        DenseFront dense(random, f, s);
+        const int n = dense.front.n;
+        std::fill(dense.l.begin(), dense.l.end(), 7.0);
+        std::fill(dense.u.begin(), dense.u.end(), 7.0);
+        kernel->clear(dense.front);
+        const sg::Run all[] = {{0, 0, n / 2}, {n / 2, n / 2, n - n / 2}};
+        kernel->add(dense.front, dense.full.data(), n, all, 2);
+        const std::vector<double> floor(f, 1e-9);
+        REQUIRE(kernel->factorize(dense.front, floor.data()) == 0);
+
+        const Eigen::MatrixXd l11 = dense.full.topLeftCorner(f, f).llt().matrixL();
+        const Eigen::MatrixXd l21 = l11.triangularView<Eigen::Lower>()
+                                        .solve(dense.full.bottomLeftCorner(n - f, f).transpose())
+                                        .transpose();
+        Eigen::MatrixXd expected = dense.full;
+        expected.topLeftCorner(f, f) = l11;
+        expected.bottomLeftCorner(n - f, f) = l21;
+        expected.bottomRightCorner(n - f, n - f) -= l21 * l21.transpose();
+        double worst = 0;
+        for (int j = 0; j < n; ++j) {
+          for (int i = j; i < n; ++i)
+            worst = std::max(worst, std::abs(dense.at(i, j) - expected(i, j)));
+        }
+        CHECK(worst < 1e-7);
+      }
+    }
+  }
+}
+
+TEST_CASE("kernels: Gram matrix and scattered sum, in either order", "[eliminate]") {
+  Random random(2);
+  for (const sg::Kernels* kernel : sg::all_kernels()) {
+    INFO(kernel->name);
+    for (int height = 1; height < 9; ++height) {
+      for (int width = 3; width < 25; ++width) {
+        const Eigen::MatrixXd block = Eigen::MatrixXd::NullaryExpr(
+            height, width, [&](Eigen::Index, Eigen::Index) { return draw_real(random); });
+        std::vector<double> gram(width * width + sg::lane);
+        std::vector<double> work(height * (width + sg::lane));
+        kernel->gram(block.data(), height, width, gram.data(), work.data());
+        const Eigen::MatrixXd expected = block.transpose() * block;
+        CHECK((Eigen::Map<Eigen::MatrixXd>(gram.data(), width, width) - expected).norm() < 1e-12);
+
+        DenseFront dense(random, 4, width + 3);
+        kernel->clear(dense.front);
+        const int last = dense.front.n - 1;
+        const sg::Run runs[] = {{1, 2, width - 2}, {0, width + 1, 1}, {width - 1, last, 1}};
+        kernel->add(dense.front, gram.data(), width, runs, 3);
+        for (const sg::Run& a : runs) {
+          for (const sg::Run& b : runs) {
+            for (int i = 0; i < a.length; ++i) {
+              for (int j = 0; j < b.length; ++j) {
+                if (a.to + i < b.to + j) continue;
+                CHECK(dense.at(a.to + i, b.to + j) == Approx(expected(a.from + i, b.from + j)));
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate]") {
+  Random random(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const int n = draw(random, 1, 40);
+    System system = random_system(random, n, draw(random, 0, 3 * n));
+    system.linear.pattern = &system.pattern;
+    const Dense full = dense(system);
+    std::vector<double> damping;
+    Eigen::MatrixXd normal = full.a.transpose() * full.a;
+    if (trial % 2 == 1) {
+      for (Eigen::Index k = 0; k < normal.rows(); ++k) damping.push_back(0.1 + 0.01 * (k % 5));
+      normal.diagonal() += as_vector(damping);
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
+    const Eigen::VectorXd expected = solver.solve(full.a.transpose() * full.b);
+
+    const int threads = 1 + trial % 3;
+    auto elimination = sg::plan_elimination(system.linear, random_order(random, n), threads);
+    std::vector<double> step;
+    for (int again = 0; again < 2; ++again) {
+      REQUIRE(sg::eliminate(elimination, system.linear, damping).empty());
+      sg::back_substitute(elimination, step);
+      const double tolerance = 1e-12 / std::max(solver.rcond(), 1e-11);
+      CHECK((as_vector(step) - expected).norm() <= tolerance * (1 + expected.norm()));
+      const double log_determinant = solver.vectorD().array().log().sum();
+      CHECK(sg::log_determinant(elimination) == Approx(log_determinant).margin(1e-6));
+    }
+  }
+}
+
+TEST_CASE("undetermined variables are named, the others solved", "[eliminate]") {
+  Random random(4);
+  for (int trial = 0; trial < 50; ++trial) {
+    const int n = draw(random, 3, 20);
+    const sg::Index loose = draw(random, 0, n - 1);
+    System system = random_system(random, n, 2 * n, {loose});
+    system.linear.pattern = &system.pattern;
+    auto elimination = sg::plan_elimination(system.linear, random_order(random, n));
+    CHECK(sg::eliminate(elimination, system.linear) == std::vector<sg::Index>{loose});
+    std::vector<double> step;
+    sg::back_substitute(elimination, step);
+    const Dense full = dense(system);
+    const Eigen::VectorXd gradient = full.a.transpose() * (full.a * as_vector(step) - full.b);
+    CHECK(gradient.norm() < 1e-6);
+  }
+}
+
+TEST_CASE("a chain that nothing anchors misses as many variables as it is free", "[eliminate]") {
+  System system;
+  const int n = 300;
+  Random random(5);
+  system.pattern.dim.assign(n, 2);
+  for (int j = 0; j + 1 < n; ++j) {
+    add_row(system, 2, {j, j + 1}, random);
+    double* const block = system.linear.block(j);
+    const double numbers[] = {1, 0.3, 0, 2, -1, -0.3, 0, -2, 0.5, 0.25};
+    std::copy_n(numbers, 10, block);
+  }
+  system.linear.pattern = &system.pattern;
+  auto elimination = sg::plan_elimination(system.linear, random_order(random, n));
+  CHECK(sg::eliminate(elimination, system.linear).size() == 1);
+  add_row(system, 2, {n / 2}, random);
+  system.linear.pattern = &system.pattern;
+  elimination = sg::plan_elimination(system.linear, random_order(random, n));
+  CHECK(sg::eliminate(elimination, system.linear).empty());
+}
+
+TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT", "[eliminate]") {
+  Random random(6);
+  for (int trial = 0; trial < 100; ++trial) {
+    const int n = draw(random, 1, 50);
+    const System system = random_system(random, n, draw(random, 0, 3 * n));
+    const sg::Order order = random_order(random, n);
+    const sg::Score score = sg::score(sg::symbolic(system.pattern, order));
+    for (const bool relaxed : {false, true}) {
+      const sg::CliqueTree tree = sg::clique_tree(system.pattern, order, relaxed);
+      sg::Wide ec_bt = 0;
+      sg::Index merged = 0;
+      for (std::int64_t ec : tree.ec) ec_bt += ec;
+      for (sg::Index k : tree.merged) merged += k;
+      CHECK(ec_bt == score.ec_bt);
+      CHECK(merged == score.cliques);
+      if (!relaxed) CHECK(tree.cliques() == score.cliques);
+      // What a clique passes on lies within its parent.
+      for (sg::Index c = 0; c < tree.cliques(); ++c) {
+        CHECK((tree.separators_of(c).empty()) == (tree.parent[c] < 0));
+        if (tree.parent[c] < 0) continue;
+        const auto f = tree.frontals_of(tree.parent[c]), s = tree.separators_of(tree.parent[c]);
+        for (sg::Index j : tree.separators_of(c)) {
+          const bool found = std::find(f.begin(), f.end(), j) != f.end() ||
+                             std::find(s.begin(), s.end(), j) != s.end();
+          CHECK(found);
+        }
+      }
+      // Renumbered, the elimination costs the same.
+      CHECK(sg::elimination_complexity(system.pattern, tree.frontals) == score.ec);
+    }
+  }
+}
+
+TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
+  const char* const folder = std::getenv("SGTOOLS_DATA");
+  if (!folder) {
+    WARN("skipped: SGTOOLS_DATA is not set");
+    return;
+  }
+  for (const char* name : {"tinyGrid3D.g2o", "smallGrid3D.g2o", "intel.g2o", "sphere2500.g2o",
+                           "victoriaPark.isam.txt"}) {
+    INFO(name);
+    const sg::Graph graph = sg::read_graph(std::string(folder) + "/" + name);
+    const sg::Problem problem = sg::make_problem(graph);
+    sg::LinearSystem system = sg::make_linear_system(problem);
+    sg::linearize(problem, sg::start_values(problem), {}, system);
+    const sg::Order order = sg::elimination_order("colamd", *system.pattern);
+    auto elimination = sg::plan_elimination(system, order);
+    std::vector<double> step, gradient, threaded;
+    REQUIRE(sg::eliminate(elimination, system).empty());
+    sg::back_substitute(elimination, step);
+    gradient.assign(step.size(), 0);
+    double scale = 0;
+    for (sg::Index r = 0; r < system.pattern->rows(); ++r) {
+      const int height = system.height[r];
+      const auto column = [&](int k) {
+        return Eigen::Map<const Eigen::VectorXd>(system.block(r) + k * height, height);
+      };
+      int k = 0;
+      Eigen::VectorXd error = Eigen::VectorXd::Zero(height);
+      for (sg::Index j : system.pattern->row(r)) {
+        for (int i = 0; i < system.pattern->dim[j]; ++i)
+          error += column(k++) * step[problem.step_at[j] + i];
+      }
+      error -= column(k);
+      k = 0;
+      for (sg::Index j : system.pattern->row(r)) {
+        for (int i = 0; i < system.pattern->dim[j]; ++i, ++k) {
+          gradient[problem.step_at[j] + i] += column(k).dot(error);
+          scale = std::max(scale, column(k).norm() * error.norm());
+        }
+      }
+    }
+    CHECK(as_vector(gradient).lpNorm<Eigen::Infinity>() < 1e-8 * (1 + scale));
+
+    auto parallel = sg::plan_elimination(system, order, 2);
+    REQUIRE(sg::eliminate(parallel, system).empty());
+    sg::back_substitute(parallel, threaded);
+    CHECK(threaded == step);
+  }
+}
