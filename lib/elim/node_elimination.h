@@ -1,0 +1,24 @@
+// Node elimination, literally: the elimination graphs of Rose (1972) as Frey, Steiner and How draw
+// them in Figure 1.
+//
+// Eliminating a variable removes it and joins its remaining neighbours pairwise; the edges that
+// this adds are fill. Slow and obvious: an adjacency matrix of bits, n^2 / 8 bytes, O(n) work for
+// every neighbour met. The fast ways of this folder are tested against it; sg-elim prints it.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+struct EliminationStep {
+  Index variable;
+  std::vector<Index> neighbours;              // in the elimination graph, ascending: its separator
+  std::vector<std::pair<Index, Index>> fill;  // edges that the step adds, first < second, ascending
+};
+// A step for every variable, in the order's order. Variables keep their numbers in the pattern.
+std::vector<EliminationStep> node_elimination(const Pattern& pattern, const Order& order);
+
+}  // namespace sg
