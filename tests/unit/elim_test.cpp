@@ -1,0 +1,429 @@
+// The fast symbolic elimination against the literal one, and both against CHOLMOD.
+#include <cholmod.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "formats/formats.h"
+#include "lib/elim/bayes_tree.h"
+#include "lib/elim/counts.h"
+#include "lib/elim/node_elimination.h"
+#include "lib/elim/score.h"
+#include "lib/order/order.h"
+
+using namespace sg;
+
+namespace {
+
+using Set = std::set<Index>;
+
+std::mt19937 random_bits(7);
+
+int uniform(int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(random_bits);
+}
+
+Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows) {
+  Pattern pattern{std::move(dim), {0}, {}};
+  for (const auto& row : rows) {
+    pattern.row_variables.insert(pattern.row_variables.end(), row.begin(), row.end());
+    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+  }
+  return pattern;
+}
+
+std::vector<std::vector<Index>> rows_of(const Pattern& pattern) {
+  std::vector<std::vector<Index>> rows;
+  for (Index r = 0; r < pattern.rows(); ++r)
+    rows.emplace_back(pattern.row(r).begin(), pattern.row(r).end());
+  return rows;
+}
+
+Order shuffled(Index n) {
+  Order order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), random_bits);
+  return order;
+}
+
+// Everything a graph file can lead to: no variables, no rows, rows without variables (all of them
+// fixed), unary rows, rows of many variables, the same row twice, parts that nothing connects.
+Pattern random_pattern(int max_dim = 6) {
+  const Index n = uniform(0, uniform(0, 3) == 0 ? 40 : 9);
+  std::vector<int> dim(n);
+  for (int& d : dim) d = uniform(1, max_dim);
+  const int row_count = n == 0 ? 0 : uniform(0, 2 * n);
+  const int max_arity = uniform(1, 5);
+  std::vector<std::vector<Index>> rows;
+  for (int r = 0; r < row_count; ++r) {
+    std::vector<Index> row = shuffled(n);
+    row.resize(std::min<Index>(n, uniform(0, 9) == 0 ? uniform(0, n) : uniform(0, max_arity)));
+    rows.push_back(row);
+    if (uniform(0, 4) == 0) rows.push_back(row);
+  }
+  return make_pattern(std::move(dim), rows);
+}
+
+// Every scalar a variable of its own.
+Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) {
+  std::vector<Index> first(pattern.variables() + 1, 0);
+  std::partial_sum(pattern.dim.begin(), pattern.dim.end(), first.begin() + 1);
+  std::vector<std::vector<Index>> rows;
+  for (Index r = 0; r < pattern.rows() + pattern.variables(); ++r) {
+    auto& row = rows.emplace_back();
+    const auto add = [&](Index j) {
+      for (Index s = first[j]; s < first[j + 1]; ++s) row.push_back(s);
+    };
+    if (r < pattern.rows()) {
+      for (Index j : pattern.row(r)) add(j);
+    } else {
+      add(r - pattern.rows());  // a variable is dense in itself
+    }
+  }
+  scalar_order.clear();
+  for (Index j : order) {
+    for (Index s = first[j]; s < first[j + 1]; ++s) scalar_order.push_back(s);
+  }
+  return make_pattern(std::vector<int>(first.back(), 1), rows);
+}
+
+std::int64_t dim_of(const Pattern& pattern, const auto& variables) {
+  std::int64_t sum = 0;
+  for (Index j : variables) sum += pattern.dim[j];
+  return sum;
+}
+
+// The Bayes tree as Kaess et al. write it down (algorithm 2): conditionals in reverse order, each
+// compared with the variables of its parent's clique.
+struct Clique {
+  Set frontal, separator;
+};
+std::vector<Clique> literal_bayes_tree(const std::vector<EliminationStep>& steps,
+                                       const std::vector<Index>& position) {
+  std::vector<Clique> cliques;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    const Set separator(step->neighbours.begin(), step->neighbours.end());
+    Clique* parent = nullptr;
+    if (!separator.empty()) {
+      const Index p = *std::min_element(separator.begin(), separator.end(), [&](Index a, Index b) {
+        return position[a] < position[b];
+      });
+      parent = &*std::find_if(cliques.begin(), cliques.end(),
+                              [&](const Clique& clique) { return clique.frontal.contains(p); });
+    }
+    Set all;
+    if (parent) {
+      all = parent->separator;
+      all.insert(parent->frontal.begin(), parent->frontal.end());
+    }
+    if (parent && all == separator) {
+      parent->frontal.insert(step->variable);
+    } else {
+      cliques.push_back({{step->variable}, separator});
+    }
+  }
+  return cliques;
+}
+
+Index literal_height(const std::vector<EliminationStep>& steps,
+                     const std::vector<Index>& position) {
+  std::vector<Index> depth(steps.size(), 1);
+  Index height = 0;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    Index parent = -1;
+    for (Index j : step->neighbours)
+      parent = parent < 0 || position[j] < position[parent] ? j : parent;
+    if (parent >= 0) depth[step->variable] = depth[parent] + 1;
+    height = std::max(height, depth[step->variable]);
+  }
+  return height;
+}
+
+struct LiteralScore : Score {
+  Wide fill = 0;
+};
+
+LiteralScore literal_score(const Pattern& pattern, const std::vector<EliminationStep>& steps) {
+  LiteralScore score;
+  std::vector<Index> position(pattern.variables());
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    position[steps[k].variable] = static_cast<Index>(k);
+  for (const auto& step : steps) {
+    const std::int64_t own = pattern.dim[step.variable];
+    const std::int64_t all = own + dim_of(pattern, step.neighbours);
+    score.ec += static_cast<Wide>(own * all * all);
+    score.max_clique = std::max(score.max_clique, all);
+    for (const auto& [i, j] : step.fill)
+      score.fill += static_cast<Wide>(pattern.dim[i]) * static_cast<Wide>(pattern.dim[j]);
+    for (std::int64_t degree = all - 1; degree >= all - own; --degree) {  // its scalars, in turn
+      score.nnz += static_cast<Wide>(degree + 1);
+      score.flops += static_cast<Wide>((degree + 1) * (degree + 1));
+      score.rose += static_cast<Wide>(degree * (degree + 3) / 2);
+    }
+  }
+  for (const auto& clique : literal_bayes_tree(steps, position)) {
+    const std::int64_t own = dim_of(pattern, clique.frontal);
+    const std::int64_t all = own + dim_of(pattern, clique.separator);
+    score.ec_bt += static_cast<Wide>(own * all * all);
+    ++score.cliques;
+  }
+  score.height = literal_height(steps, position);
+  return score;
+}
+
+void require_equal(const Score& fast, const Score& literal) {
+  REQUIRE(to_string(fast.ec) == to_string(literal.ec));
+  REQUIRE(to_string(fast.nnz) == to_string(literal.nnz));
+  REQUIRE(to_string(fast.ec_bt) == to_string(literal.ec_bt));
+  REQUIRE(to_string(fast.rose) == to_string(literal.rose));
+  REQUIRE(to_string(fast.flops) == to_string(literal.flops));
+  REQUIRE(fast.max_clique == literal.max_clique);
+  REQUIRE(fast.height == literal.height);
+  REQUIRE(fast.cliques == literal.cliques);
+}
+
+void require_as_literal(const Pattern& pattern, const Order& order) {
+  const LiteralScore literal = literal_score(pattern, node_elimination(pattern, order));
+  const Score fast = score(symbolic(pattern, order));
+  require_equal(fast, literal);
+  REQUIRE(to_string(fast.nnz - system_nnz(pattern)) == to_string(literal.fill));
+  REQUIRE(elimination_complexity(pattern, order) == fast.ec);
+}
+
+// CHOLMOD's count for the expanded scalar pattern: {nonzeros of L, flops}.
+std::pair<double, double> cholmod_counts(const Pattern& pattern, const Order& order) {
+  Order scalar_order;
+  const Pattern scalar = expand(pattern, order, scalar_order);
+  const Adjacency graph = adjacency(scalar);
+  cholmod_common common;
+  cholmod_start(&common);
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  common.postorder = 0;
+  common.supernodal = CHOLMOD_SIMPLICIAL;
+  std::vector<int> begin{0};
+  std::vector<int> rows;
+  for (Index j = 0; j < scalar.variables(); ++j) {
+    for (Index i : graph[j]) {
+      if (i < j) rows.push_back(i);
+    }
+    rows.push_back(j);
+    begin.push_back(static_cast<int>(rows.size()));
+  }
+  const auto n = static_cast<std::size_t>(scalar.variables());
+  cholmod_sparse matrix{};
+  matrix.nrow = matrix.ncol = n;
+  matrix.nzmax = rows.size();
+  matrix.p = begin.data();
+  matrix.i = rows.data();
+  matrix.stype = 1;
+  matrix.itype = CHOLMOD_INT;
+  matrix.xtype = CHOLMOD_PATTERN;
+  matrix.sorted = matrix.packed = 1;
+  cholmod_factor* factor = cholmod_analyze_p(&matrix, scalar_order.data(), nullptr, 0, &common);
+  REQUIRE(common.status == CHOLMOD_OK);
+  const std::pair counts{common.lnz, common.fl};
+  cholmod_free_factor(&factor, &common);
+  cholmod_finish(&common);
+  return counts;
+}
+
+void require_as_cholmod(const Pattern& pattern, const Order& order) {
+  const Score fast = score(symbolic(pattern, order));
+  const auto [nnz, flops] = cholmod_counts(pattern, order);
+  REQUIRE(to_double(fast.nnz) == nnz);
+  REQUIRE(to_double(fast.flops) == flops);
+}
+
+// The public graphs, by ascending size; none where SGTOOLS_DATA is not set.
+std::vector<std::string> public_graphs() {
+  const char* folder = std::getenv("SGTOOLS_DATA");
+  if (!folder) return {};
+  std::vector<std::pair<std::uintmax_t, std::string>> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files.emplace_back(entry.file_size(), entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> paths;
+  for (auto& [size, path] : files) paths.push_back(std::move(path));
+  return paths;
+}
+
+}  // namespace
+
+TEST_CASE("node elimination of the paper's Figure 1", "[elim]") {
+  // 0 - 1, 0 - 2, 1 - 3, 2 - 4, 3 - 4: eliminating 0 joins 1 and 2, then 1 joins 2 and 3.
+  const Pattern pattern = make_pattern({1, 1, 1, 1, 1}, {{0, 1}, {0, 2}, {1, 3}, {2, 4}, {3, 4}});
+  const auto steps = node_elimination(pattern, {0, 1, 2, 3, 4});
+  using Pairs = std::vector<std::pair<Index, Index>>;
+  REQUIRE(steps.size() == 5);
+  CHECK(steps[0].neighbours == std::vector<Index>{1, 2});
+  CHECK(steps[0].fill == Pairs{{1, 2}});
+  CHECK(steps[1].neighbours == std::vector<Index>{2, 3});
+  CHECK(steps[1].fill == Pairs{{2, 3}});
+  CHECK(steps[2].neighbours == std::vector<Index>{3, 4});
+  CHECK(steps[2].fill.empty());
+  CHECK(steps[3].neighbours == std::vector<Index>{4});
+  CHECK(steps[4].neighbours.empty());
+  // 3^2 three times, 2^2, 1; the cliques are {2, 3, 4}, {1 | 2, 3} and {0 | 1, 2}.
+  const Score counted = score(symbolic(pattern, {0, 1, 2, 3, 4}));
+  CHECK(to_string(counted.ec) == "32");
+  CHECK(counted.cliques == 3);
+  CHECK(to_string(counted.ec_bt) == "45");
+}
+
+TEST_CASE("an order that is no permutation is refused", "[elim]") {
+  const Pattern pattern = make_pattern({1, 1}, {{0, 1}});
+  CHECK_THROWS_AS(symbolic(pattern, {0}), std::invalid_argument);
+  CHECK_THROWS_AS(symbolic(pattern, {0, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(symbolic(pattern, {0, 2}), std::invalid_argument);
+  CHECK_THROWS_AS(symbolic(pattern, {-1, 0}), std::invalid_argument);
+}
+
+TEST_CASE("scores equal literal node elimination on odd random graphs", "[elim]") {
+  for (int trial = 0; trial < 5000; ++trial) {
+    const Pattern pattern = random_pattern();
+    require_as_literal(pattern, shuffled(pattern.variables()));
+  }
+}
+
+TEST_CASE("scores equal literal elimination of the expanded scalar graph", "[elim]") {
+  for (int trial = 0; trial < 500; ++trial) {
+    const Pattern pattern = random_pattern();
+    const Order order = shuffled(pattern.variables());
+    Order scalar_order;
+    const Pattern scalar = expand(pattern, order, scalar_order);
+    const LiteralScore literal = literal_score(scalar, node_elimination(scalar, scalar_order));
+    const Score fast = score(symbolic(pattern, order));
+    REQUIRE(fast.nnz == literal.nnz);
+    REQUIRE(fast.rose == literal.rose);
+    REQUIRE(fast.flops == literal.flops);
+    REQUIRE(fast.nnz - system_nnz(pattern) == literal.fill);
+    REQUIRE(fast.max_clique == literal.max_clique);
+  }
+}
+
+TEST_CASE("nnz and flops are CHOLMOD's", "[elim]") {
+  for (int trial = 0; trial < 500; ++trial) {
+    const Pattern pattern = random_pattern();
+    if (pattern.variables() > 0) require_as_cholmod(pattern, shuffled(pattern.variables()));
+  }
+}
+
+TEST_CASE("adding an edge never lowers EC (Lemma 1)", "[elim]") {
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Pattern pattern = random_pattern();
+    const Order order = shuffled(pattern.variables());
+    auto rows = rows_of(pattern);
+    std::vector<Index> added = shuffled(pattern.variables());
+    added.resize(std::min<Index>(pattern.variables(), uniform(1, 4)));
+    rows.insert(rows.begin() + uniform(0, static_cast<int>(rows.size())), added);
+    const Pattern larger = make_pattern(pattern.dim, rows);
+    REQUIRE(elimination_complexity(pattern, order) <= elimination_complexity(larger, order));
+  }
+}
+
+TEST_CASE("with scalar variables EC is the asymptotic Rose sum", "[elim]") {
+  // Rose: 1/2 sum d (d + 3) ~ 1/2 sum d^2; the paper drops the half. EC counts the column's own
+  // entry too: sum (d + 1)^2 = 2 Rose - sum d + n, and sum d = nnz - n.
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Pattern pattern = random_pattern(1);
+    const Order order = shuffled(pattern.variables());
+    const Score counted = score(symbolic(pattern, order));
+    Wide squares = 0;
+    for (const auto& step : node_elimination(pattern, order)) {
+      const Wide entries = step.neighbours.size() + 1;
+      squares += entries * entries;
+    }
+    REQUIRE(counted.ec == squares);
+    REQUIRE(counted.ec == counted.flops);
+    REQUIRE(counted.ec + counted.nnz ==
+            2 * counted.rose + 2 * static_cast<Wide>(pattern.variables()));
+  }
+}
+
+TEST_CASE("the Bayes tree costs no less than node by node", "[elim]") {
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Pattern pattern = random_pattern();
+    const Score counted = score(symbolic(pattern, shuffled(pattern.variables())));
+    REQUIRE(counted.ec_bt >= counted.ec);
+  }
+}
+
+TEST_CASE("the Bayes tree is a tree over all variables, parents first", "[elim]") {
+  for (int trial = 0; trial < 500; ++trial) {
+    const Pattern pattern = random_pattern();
+    const Symbolic elimination = symbolic(pattern, shuffled(pattern.variables()));
+    const BayesTree tree = bayes_tree(elimination);
+    std::vector<std::int64_t> frontal(tree.cliques(), 0);
+    for (Index k = 0; k < pattern.variables(); ++k) {
+      frontal[tree.clique[k]] += elimination.dim[k];
+      const Index parent = elimination.parent[k];
+      const bool inside = parent >= 0 && tree.clique[parent] == tree.clique[k];
+      REQUIRE((inside || tree.top[tree.clique[k]] == k));
+    }
+    REQUIRE(frontal == tree.frontal_dim);
+    for (Index c = 0; c < tree.cliques(); ++c) REQUIRE(tree.parent[c] < c);
+  }
+}
+
+TEST_CASE("postorder and height are those of the tree", "[elim]") {
+  for (int trial = 0; trial < 500; ++trial) {
+    const Pattern pattern = random_pattern();
+    const Symbolic elimination = symbolic(pattern, shuffled(pattern.variables()));
+    const std::vector<Index> post = postorder(elimination.parent);
+    std::vector<Index> rank(post.size(), -1);
+    for (std::size_t k = 0; k < post.size(); ++k) rank[post[k]] = static_cast<Index>(k);
+    std::vector<Index> size(post.size(), 1);  // of every subtree: it ends with its root
+    for (Index k = 0; k < pattern.variables(); ++k) {
+      REQUIRE(rank[k] >= 0);
+      const Index parent = elimination.parent[k];
+      if (parent < 0) continue;
+      REQUIRE(parent > k);
+      size[parent] += size[k];
+    }
+    for (Index k = 0; k < pattern.variables(); ++k) {
+      const Index parent = elimination.parent[k];
+      if (parent < 0) continue;
+      REQUIRE(rank[k] < rank[parent]);
+      REQUIRE(rank[k] - size[k] >= rank[parent] - size[parent]);
+    }
+  }
+}
+
+TEST_CASE("wide numbers print in full", "[elim]") {
+  CHECK(to_string(Wide{0}) == "0");
+  CHECK(to_string(Wide{1000000007}) == "1000000007");
+  CHECK(to_string(~Wide{0}) == "340282366920938463463374607431768211455");
+  CHECK(to_string(elimination_cost(3, 3'000'000'000)) == "27000000000000000000");
+}
+
+TEST_CASE("public graphs: scores equal literal node elimination under every ordering",
+          "[elim][public]") {
+  const auto files = public_graphs();
+  if (files.empty()) WARN("skipped: SGTOOLS_DATA is not set");
+  for (const auto& file : files) {
+    const Graph graph = read_graph(file);
+    const GraphPattern variables = graph_pattern(graph);
+    const OrderOptions options = order_options(graph, variables);
+    for (const Ordering& ordering : orderings()) {
+      CAPTURE(file, ordering.name);
+      const Order order = elimination_order(ordering, variables.pattern, options);
+      require_as_literal(variables.pattern, order);
+    }
+  }
+}
+
+TEST_CASE("public graphs: nnz and flops are CHOLMOD's under COLAMD", "[elim][public]") {
+  const auto files = public_graphs();
+  if (files.empty()) WARN("skipped: SGTOOLS_DATA is not set");
+  for (const auto& file : files) {
+    CAPTURE(file);
+    const GraphPattern variables = graph_pattern(read_graph(file));
+    require_as_cholmod(variables.pattern, elimination_order("colamd", variables.pattern));
+  }
+}
