@@ -39,7 +39,7 @@ Wide elimination_complexity(const Pattern& pattern, const Order& order) {
   return elimination_complexity(symbolic(pattern, order));
 }
 
-Score score(const Symbolic& symbolic) {
+Score column_score(const Symbolic& symbolic) {
   Score score;
   score.ec = elimination_complexity(symbolic);
   for (std::size_t k = 0; k < symbolic.dim.size(); ++k) {
@@ -53,11 +53,16 @@ Score score(const Symbolic& symbolic) {
     }
     score.max_clique = std::max(score.max_clique, symbolic.count[k]);
   }
+  score.height = height(symbolic.parent);
+  return score;
+}
+
+Score score(const Symbolic& symbolic) {
+  Score score = column_score(symbolic);
   const BayesTree tree = bayes_tree(symbolic);
   for (Index c = 0; c < tree.cliques(); ++c)
     score.ec_bt += elimination_cost(tree.frontal_dim[c], tree.total_dim[c]);
   score.cliques = tree.cliques();
-  score.height = height(symbolic.parent);
   return score;
 }
 

@@ -39,6 +39,8 @@ struct Score {
   Wide ec_bt = 0;               // sum over cliques of d_f (d_f + d_s)^2
 };
 Score score(const Symbolic& symbolic);
+// The same without the Bayes tree's cliques and ec_bt, for who does not want them.
+Score column_score(const Symbolic& symbolic);
 
 // EC alone.
 Wide elimination_complexity(const Symbolic& symbolic);

@@ -4,12 +4,13 @@
 #include <numeric>
 
 namespace sg {
+namespace {
 
-GraphPattern graph_pattern(const Graph& graph) {
+GraphPattern pattern_of(const Graph& graph, const auto& has_vertex, const auto& has_edge) {
   GraphPattern result;
   result.vertex_variable.assign(graph.vertices(), -1);
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (graph.fixed[v]) continue;
+    if (graph.fixed[v] || !has_vertex(v)) continue;
     result.vertex_variable[v] = static_cast<Index>(result.variable_vertex.size());
     result.variable_vertex.push_back(v);
     result.pattern.dim.push_back(graph.dim(v));
@@ -19,6 +20,7 @@ GraphPattern graph_pattern(const Graph& graph) {
   pattern.row_variables.reserve(graph.edge_vertices.size());
   pattern.row_begin.push_back(0);
   for (Index e = 0; e < graph.edges(); ++e) {
+    if (!has_edge(e)) continue;
     const auto row = static_cast<std::ptrdiff_t>(pattern.row_variables.size());
     for (Index v : graph.edge(e)) {
       const Index j = result.vertex_variable[v];
@@ -31,6 +33,19 @@ GraphPattern graph_pattern(const Graph& graph) {
     pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
   }
   return result;
+}
+
+}  // namespace
+
+GraphPattern graph_pattern(const Graph& graph) {
+  const auto all = [](Index) { return true; };
+  return pattern_of(graph, all, all);
+}
+
+GraphPattern graph_pattern(const Graph& graph, const std::vector<bool>& vertex_in,
+                           const std::vector<bool>& edge_in) {
+  return pattern_of(
+      graph, [&](Index v) { return vertex_in[v]; }, [&](Index e) { return edge_in[e]; });
 }
 
 Columns columns(const Pattern& pattern) {

@@ -34,6 +34,10 @@ struct GraphPattern {
   std::vector<Index> vertex_variable;
 };
 GraphPattern graph_pattern(const Graph& graph);
+// The same of a part of the graph: the vertices and edges that are marked, where an edge that is in
+// has all its vertices in. vertex_variable is -1 of vertices outside.
+GraphPattern graph_pattern(const Graph& graph, const std::vector<bool>& vertex_in,
+                           const std::vector<bool>& edge_in);
 
 // The columns of a pattern: for every variable, the rows it stands in, ascending (the transpose).
 struct Columns {
