@@ -20,8 +20,6 @@ using namespace sg;
 
 namespace {
 
-using Set = std::set<Index>;
-
 std::mt19937 random_bits(7);
 
 int uniform(int low, int high) {
@@ -54,7 +52,7 @@ Order shuffled(Index n) {
 // Everything a graph file can lead to: no variables, no rows, rows without variables (all of them
 // fixed), unary rows, rows of many variables, the same row twice, parts that nothing connects.
 Pattern random_pattern(int max_dim = 6) {
-  const Index n = uniform(0, uniform(0, 3) == 0 ? 40 : 9);
+  const Index n = uniform(0, uniform(0, 3) == 0 ? 80 : 9);
   std::vector<int> dim(n);
   for (int& d : dim) d = uniform(1, max_dim);
   const int row_count = n == 0 ? 0 : uniform(0, 2 * n);
@@ -92,6 +90,35 @@ Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) 
   return make_pattern(std::vector<int>(first.back(), 1), rows);
 }
 
+// Node elimination with nothing but sets.
+std::vector<EliminationStep> set_elimination(const Pattern& pattern, const Order& order) {
+  std::vector<std::set<Index>> adjacent(pattern.variables());
+  for (Index r = 0; r < pattern.rows(); ++r) {
+    for (Index i : pattern.row(r)) {
+      for (Index j : pattern.row(r)) {
+        if (i != j) adjacent[i].insert(j);
+      }
+    }
+  }
+  std::vector<Index> position(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<Index>(k);
+  const auto before = [&](Index a, Index b) { return position[a] < position[b]; };
+  std::vector<EliminationStep> steps;
+  for (Index v : order) {
+    EliminationStep step{v, {adjacent[v].begin(), adjacent[v].end()}, {}};
+    std::sort(step.neighbours.begin(), step.neighbours.end(), before);
+    for (Index i : step.neighbours) {
+      adjacent[i].erase(v);
+      for (Index j : step.neighbours) {
+        if (before(i, j) && adjacent[i].insert(j).second) step.fill.emplace_back(i, j);
+        if (before(j, i)) adjacent[i].insert(j);
+      }
+    }
+    steps.push_back(step);
+  }
+  return steps;
+}
+
 std::int64_t dim_of(const Pattern& pattern, const auto& variables) {
   std::int64_t sum = 0;
   for (Index j : variables) sum += pattern.dim[j];
@@ -99,46 +126,37 @@ std::int64_t dim_of(const Pattern& pattern, const auto& variables) {
 }
 
 // The Bayes tree as Kaess et al. write it down (algorithm 2): conditionals in reverse order, each
-// compared with the variables of its parent's clique.
+// compared with all variables of its parent's clique.
 struct Clique {
-  Set frontal, separator;
+  std::vector<Index> frontal, separator, all;  // `all` ascending
 };
-std::vector<Clique> literal_bayes_tree(const std::vector<EliminationStep>& steps,
-                                       const std::vector<Index>& position) {
+std::vector<Clique> literal_bayes_tree(const std::vector<EliminationStep>& steps) {
   std::vector<Clique> cliques;
+  std::vector<std::size_t> clique_of(steps.size());  // whose frontal variable it is
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-    const Set separator(step->neighbours.begin(), step->neighbours.end());
-    Clique* parent = nullptr;
-    if (!separator.empty()) {
-      const Index p = *std::min_element(separator.begin(), separator.end(), [&](Index a, Index b) {
-        return position[a] < position[b];
-      });
-      parent = &*std::find_if(cliques.begin(), cliques.end(),
-                              [&](const Clique& clique) { return clique.frontal.contains(p); });
-    }
-    Set all;
-    if (parent) {
-      all = parent->separator;
-      all.insert(parent->frontal.begin(), parent->frontal.end());
-    }
-    if (parent && all == separator) {
-      parent->frontal.insert(step->variable);
+    std::vector<Index> separator = step->neighbours;
+    std::sort(separator.begin(), separator.end());
+    std::vector<Index> all = separator;
+    all.insert(std::upper_bound(all.begin(), all.end(), step->variable), step->variable);
+    // The parent's clique is that of the neighbour eliminated first.
+    if (!separator.empty() && cliques[clique_of[step->neighbours.front()]].all == separator) {
+      clique_of[step->variable] = clique_of[step->neighbours.front()];
+      Clique& clique = cliques[clique_of[step->variable]];
+      clique.frontal.push_back(step->variable);
+      clique.all = std::move(all);
     } else {
-      cliques.push_back({{step->variable}, separator});
+      clique_of[step->variable] = cliques.size();
+      cliques.push_back({{step->variable}, std::move(separator), std::move(all)});
     }
   }
   return cliques;
 }
 
-Index literal_height(const std::vector<EliminationStep>& steps,
-                     const std::vector<Index>& position) {
+Index literal_height(const std::vector<EliminationStep>& steps) {
   std::vector<Index> depth(steps.size(), 1);
   Index height = 0;
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-    Index parent = -1;
-    for (Index j : step->neighbours)
-      parent = parent < 0 || position[j] < position[parent] ? j : parent;
-    if (parent >= 0) depth[step->variable] = depth[parent] + 1;
+    if (!step->neighbours.empty()) depth[step->variable] = depth[step->neighbours.front()] + 1;
     height = std::max(height, depth[step->variable]);
   }
   return height;
@@ -150,9 +168,6 @@ struct LiteralScore : Score {
 
 LiteralScore literal_score(const Pattern& pattern, const std::vector<EliminationStep>& steps) {
   LiteralScore score;
-  std::vector<Index> position(pattern.variables());
-  for (std::size_t k = 0; k < steps.size(); ++k)
-    position[steps[k].variable] = static_cast<Index>(k);
   for (const auto& step : steps) {
     const std::int64_t own = pattern.dim[step.variable];
     const std::int64_t all = own + dim_of(pattern, step.neighbours);
@@ -166,13 +181,13 @@ LiteralScore literal_score(const Pattern& pattern, const std::vector<Elimination
       score.rose += static_cast<Wide>(degree * (degree + 3) / 2);
     }
   }
-  for (const auto& clique : literal_bayes_tree(steps, position)) {
+  for (const auto& clique : literal_bayes_tree(steps)) {
     const std::int64_t own = dim_of(pattern, clique.frontal);
     const std::int64_t all = own + dim_of(pattern, clique.separator);
     score.ec_bt += static_cast<Wide>(own * all * all);
     ++score.cliques;
   }
-  score.height = literal_height(steps, position);
+  score.height = literal_height(steps);
   return score;
 }
 
@@ -282,6 +297,21 @@ TEST_CASE("an order that is no permutation is refused", "[elim]") {
   CHECK_THROWS_AS(symbolic(pattern, {0, 0}), std::invalid_argument);
   CHECK_THROWS_AS(symbolic(pattern, {0, 2}), std::invalid_argument);
   CHECK_THROWS_AS(symbolic(pattern, {-1, 0}), std::invalid_argument);
+}
+
+TEST_CASE("node elimination is that of sets of neighbours", "[elim]") {
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Pattern pattern = random_pattern();
+    const Order order = shuffled(pattern.variables());
+    const auto steps = node_elimination(pattern, order);
+    const auto by_sets = set_elimination(pattern, order);
+    REQUIRE(steps.size() == by_sets.size());
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      REQUIRE(steps[k].variable == by_sets[k].variable);
+      REQUIRE(steps[k].neighbours == by_sets[k].neighbours);
+      REQUIRE(steps[k].fill == by_sets[k].fill);
+    }
+  }
 }
 
 TEST_CASE("scores equal literal node elimination on odd random graphs", "[elim]") {
