@@ -440,10 +440,11 @@ TEST_CASE("public graphs: scores equal literal node elimination under every orde
     const Graph graph = read_graph(file);
     const GraphPattern variables = graph_pattern(graph);
     const OrderOptions options = order_options(graph, variables);
+    std::set<Order> done;  // several methods may give one order
     for (const Ordering& ordering : orderings()) {
       CAPTURE(file, ordering.name);
       const Order order = elimination_order(ordering, variables.pattern, options);
-      require_as_literal(variables.pattern, order);
+      if (done.insert(order).second) require_as_literal(variables.pattern, order);
     }
   }
 }
