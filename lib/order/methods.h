@@ -20,5 +20,6 @@ Order random(const Pattern& pattern, const OrderOptions& options);
 Order rcm(const Pattern& pattern, const OrderOptions& options);
 Order scotch(const Pattern& pattern, const OrderOptions& options);
 Order sloan(const Pattern& pattern, const OrderOptions& options);
+Order wmf(const Pattern& pattern, const OrderOptions& options);
 
 }  // namespace sg::ordering

@@ -16,6 +16,7 @@ constexpr Ordering table[] = {
      ordering::landmarks_first},
     {"colamd", "CCOLAMD without dense-row removal, on the factors", ordering::colamd},
     {"amd", "AMD, on the block graph", ordering::amd},
+    {"wmf", "weighted minimum fill, on the block graph", ordering::wmf},
     {"metis", "nested dissection by METIS", ordering::metis},
     {"scotch", "nested dissection by Scotch", ordering::scotch},
     {"mmd", "multiple minimum degree (Boost.Graph)", ordering::mmd},

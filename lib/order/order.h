@@ -37,8 +37,8 @@ std::span<const Ordering> orderings();
 // Throws a usage Error that lists the names.
 const Ordering& find_ordering(std::string_view name);
 
-// The order of a method. `last` holds for every method: colamd and amd have it as a constraint and
-// take it into account; of the others the order is computed without it, and the variables of `last`
+// The order of a method. `last` holds for every method: colamd, amd and wmf have it as a constraint
+// and take it into account; of the others the order is computed without it, and the variables of `last`
 // are then moved to its end, in their relative order.
 Order elimination_order(const Ordering& ordering, const Pattern& pattern,
                         const OrderOptions& options = {});

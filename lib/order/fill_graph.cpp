@@ -1,0 +1,271 @@
+#include "lib/order/fill_graph.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace sg {
+namespace {
+
+void note_change(FillGraph& g, Index v) {
+  if (g.fill[v].changed == g.round) return;
+  g.fill[v].changed = g.round;
+  g.changed.push_back(v);
+}
+
+void drop_dead(FillGraph& g, Index v) {
+  FillGraph::List& list = g.list[v];
+  g.work += list.size;
+  if (list.size == list.live) return;
+  Index* const begin = g.pool.data() + list.begin;
+  const char* const alive = g.variables.alive.data();
+  const auto end = std::remove_if(begin, begin + list.size, [&](Index w) { return !alive[w]; });
+  list.size = static_cast<Index>(end - begin);
+}
+
+void append(FillGraph& g, Index v, Index w) {
+  FillGraph::List& list = g.list[v];
+  if (list.size == list.capacity) {
+    const auto moved = static_cast<std::int64_t>(g.pool.size());
+    list.capacity = 2 * list.capacity + 4;
+    g.pool.resize(g.pool.size() + list.capacity);
+    std::copy_n(g.pool.begin() + list.begin, list.size, g.pool.begin() + moved);
+    list.begin = moved;
+  }
+  g.pool[list.begin + list.size++] = w;
+  ++list.live;
+}
+
+void mark_closed_neighbourhood(FillGraph& g, Index v) {
+  ++g.stamp;
+  g.mark[v] = g.stamp;
+  for (Index w : neighbours(g, v)) g.mark[w] = g.stamp;
+}
+
+bool all_marked(FillGraph& g, Index v) {
+  const std::span<const Index> entries(g.pool.data() + g.list[v].begin, g.list[v].size);
+  for (Index w : entries) {
+    ++g.work;
+    if (g.mark[w] != g.stamp && g.variables.alive[w]) return false;
+  }
+  return true;
+}
+
+// Takes `pair` off the fill of the marked among the neighbours of b. Returns their weight.
+// The innermost loop of all: hence the copies of what the compiler would load again and again.
+std::int64_t take_off_common(FillGraph& g, Index b, std::int64_t pair) {
+  const int* const mark = g.mark.data();
+  FillGraph::Fill* const fill = g.fill.data();
+  const int stamp = g.stamp;
+  const int round = g.round;
+  const Index* const begin = g.pool.data() + g.list[b].begin;
+  const Index* const end = begin + g.list[b].size;
+  std::int64_t common = 0;
+  for (const Index* w = begin; w != end; ++w) {
+    if (mark[*w] != stamp) continue;
+    FillGraph::Fill& entry = fill[*w];
+    entry.fill -= pair;
+    common += entry.weight;
+    if (entry.changed != round) note_change(g, *w);
+  }
+  return common;
+}
+
+// The new edge {a, b}; the closed neighbourhood of a is marked.
+void join(FillGraph& g, Index a, Index b) {
+  if (g.list[b].size > 2 * g.list[b].live + 8) drop_dead(g, b);
+  const std::int64_t weight_a = g.fill[a].weight;
+  const std::int64_t weight_b = g.fill[b].weight;
+  const std::int64_t common = take_off_common(g, b, weight_a * weight_b);
+  g.work += g.list[b].size;
+  g.fill[a].fill += weight_b * (g.degree[a] - common);
+  g.fill[b].fill += weight_a * (g.degree[b] - common);
+  g.degree[a] += weight_b;
+  g.degree[b] += weight_a;
+  g.hash[a] += mix(b);
+  g.hash[b] += mix(a);
+  append(g, a, b);
+  append(g, b, a);
+  g.mark[b] = g.stamp;
+  note_change(g, a);
+  note_change(g, b);
+}
+
+// Makes the neighbours of v a clique.
+void join_neighbours(FillGraph& g, Index v) {
+  std::vector<Index>& clique = g.clique;
+  const auto largest = std::max_element(clique.begin(), clique.end(), [&](Index a, Index b) {
+    return g.list[a].size < g.list[b].size;
+  });
+  const Index hub = *largest;
+  *largest = clique.back();
+  clique.back() = hub;
+  std::vector<Index>& miss_hub = g.miss_hub;
+  miss_hub.clear();
+  const std::size_t others = clique.size() - 1;
+  for (std::size_t i = 0; i < others && g.fill[v].fill > 0; ++i) {
+    mark_closed_neighbourhood(g, clique[i]);
+    for (std::size_t j = i + 1; j < others; ++j) {
+      if (g.mark[clique[j]] != g.stamp) join(g, clique[i], clique[j]);
+    }
+    if (g.mark[hub] != g.stamp) miss_hub.push_back(clique[i]);
+    g.work += static_cast<std::int64_t>(others - i);
+  }
+  if (miss_hub.empty()) return;
+  mark_closed_neighbourhood(g, hub);
+  for (Index b : miss_hub) join(g, hub, b);
+}
+
+void merge(FillGraph& g, Index kept, Index gone) {
+  for (Index w : neighbours(g, gone)) {
+    g.hash[w] -= mix(gone);
+    --g.list[w].live;
+  }
+  absorb(g.variables, kept, gone);
+  g.degree[kept] -= g.fill[gone].weight;
+  g.fill[kept].weight = g.variables.weight[kept];
+  note_change(g, kept);
+}
+
+// Merges the indistinguishable ones among `candidates`, whose H are up to date.
+void merge_indistinguishable(FillGraph& g, std::span<const Index> candidates) {
+  auto& by_hash = g.by_hash;
+  by_hash.clear();
+  for (Index v : candidates) by_hash.emplace_back(g.hash[v] + mix(~g.stage[v]), v);
+  std::sort(by_hash.begin(), by_hash.end());
+  for (std::size_t i = 0, j = 0; i < by_hash.size(); i = j) {
+    for (j = i + 1; j < by_hash.size() && by_hash[j].first == by_hash[i].first; ++j) {
+      merge(g, by_hash[i].second, by_hash[j].second);
+    }
+  }
+}
+
+// Takes out v, whose neighbours are a clique.
+void remove_simplicial(FillGraph& g, Index v, std::span<const Index> clique) {
+  const std::int64_t weight = g.fill[v].weight;
+  for (Index u : clique) {
+    const std::int64_t outside = g.degree[u] + g.fill[u].weight - g.degree[v] - weight;
+    g.fill[u].fill -= weight * outside;
+    g.degree[u] -= weight;
+    g.hash[u] -= mix(v);
+    --g.list[u].live;
+    note_change(g, u);
+  }
+  eliminate_members(g.variables, v, g.degree[v]);
+}
+
+// Edges from every live variable to its neighbours of higher (degree, index).
+Adjacency upward(FillGraph& g) {
+  Adjacency up;
+  up.begin.push_back(0);
+  for (Index v = 0; v < static_cast<Index>(g.list.size()); ++v) {
+    if (g.variables.alive[v]) {
+      for (Index w : neighbours(g, v)) {
+        if (std::pair(g.list[v].live, v) < std::pair(g.list[w].live, w)) up.neighbours.push_back(w);
+      }
+    }
+    up.begin.push_back(static_cast<Index>(up.neighbours.size()));
+  }
+  return up;
+}
+
+// fill(v) if no two neighbours are adjacent.
+void bound_fill(FillGraph& g) {
+  for (Index v = 0; v < static_cast<Index>(g.list.size()); ++v) {
+    if (!g.variables.alive[v]) continue;
+    std::int64_t squares = 0;
+    for (Index w : neighbours(g, v)) squares += std::int64_t{g.fill[w].weight} * g.fill[w].weight;
+    g.fill[v].fill = (g.degree[v] * g.degree[v] - squares) / 2;
+  }
+}
+
+// Every triangle takes the weight of an edge off the fill of the vertex opposite. Each is found
+// once, at its lowest vertex (the "forward" algorithm: Schank, Wagner 2005).
+void count_fill(FillGraph& g, std::int64_t work_limit) {
+  const Adjacency up = upward(g);
+  std::int64_t work = 0;
+  for (Index w : up.neighbours) work += up.begin[w + 1] - up.begin[w];
+  g.exact = work <= work_limit;
+  if (!g.exact) return;
+  g.work += work;
+  for (Index v = 0; v < up.size(); ++v) {
+    if (up[v].size() < 2) continue;
+    ++g.stamp;
+    for (Index a : up[v]) g.mark[a] = g.stamp;
+    for (Index a : up[v]) {
+      for (Index b : up[a]) {
+        if (g.mark[b] != g.stamp) continue;
+        const std::int64_t dv = g.fill[v].weight, da = g.fill[a].weight, db = g.fill[b].weight;
+        g.fill[v].fill -= da * db;
+        g.fill[a].fill -= dv * db;
+        g.fill[b].fill -= dv * da;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+FillGraph fill_graph(const Adjacency& graph, const std::vector<int>& dim, std::vector<int> stage,
+                     std::int64_t work_limit) {
+  const Index n = graph.size();
+  FillGraph g;
+  g.variables = supervariables(dim);
+  g.stage = std::move(stage);
+  g.stage.resize(n, 0);
+  g.pool = graph.neighbours;
+  g.fill.resize(n);
+  g.degree.resize(n);
+  g.hash.resize(n);
+  g.list.resize(n);
+  g.mark.assign(n, 0);
+  for (Index v = 0; v < n; ++v) {
+    const auto size = static_cast<Index>(graph[v].size());
+    g.list[v] = {graph.begin[v], size, size, size};
+    g.fill[v] = {0, dim[v], 0};
+    g.hash[v] = mix(v);
+    for (Index w : graph[v]) {
+      g.degree[v] += dim[w];
+      g.hash[v] += mix(w);
+    }
+  }
+  std::vector<Index> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  merge_indistinguishable(g, all);
+  bound_fill(g);
+  count_fill(g, work_limit);
+  return g;
+}
+
+void eliminate(FillGraph& g, Index v) {
+  const std::span<const Index> around = neighbours(g, v);
+  std::vector<Index>& clique = g.clique;
+  clique.assign(around.begin(), around.end());
+  ++g.round;
+  g.changed.clear();
+  if (g.fill[v].fill > 0) join_neighbours(g, v);
+  remove_simplicial(g, v, clique);
+  merge_indistinguishable(g, clique);
+}
+
+Index better_first(FillGraph& g, Index v) {
+  mark_closed_neighbourhood(g, v);
+  const std::int64_t front_v = g.fill[v].weight + g.degree[v];
+  for (Index i : neighbours(g, v)) {
+    const std::int64_t front_i = g.fill[i].weight + g.degree[i];
+    if (front_i > front_v || g.stage[i] != g.stage[v]) continue;
+    const Wide i_first = elimination_cost(g.fill[i].weight, front_i) +
+                         elimination_cost(g.fill[v].weight, front_v - g.fill[i].weight);
+    const Wide v_first = elimination_cost(g.fill[v].weight, front_v) +
+                         elimination_cost(g.fill[i].weight, front_v - g.fill[v].weight);
+    if (i_first < v_first && all_marked(g, i)) return i;
+  }
+  return v;
+}
+
+std::span<const Index> neighbours(FillGraph& g, Index v) {
+  drop_dead(g, v);
+  return {g.pool.data() + g.list[v].begin, static_cast<std::size_t>(g.list[v].size)};
+}
+
+}  // namespace sg

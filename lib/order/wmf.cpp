@@ -1,0 +1,169 @@
+#include "lib/order/wmf.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "lib/order/fill_graph.h"
+#include "lib/order/methods.h"
+#include "lib/order/min_queue.h"
+#include "lib/order/quotient_graph.h"
+
+namespace sg {
+namespace {
+
+std::int64_t fill(const FillGraph& g, Index v) {
+  return g.fill[v].fill;
+}
+std::int64_t fill(const QuotientGraph& g, Index v) {
+  return g.fill[v];
+}
+Index better_first(const QuotientGraph&, Index v) {
+  return v;
+}  // mass elimination does it
+
+// How a pass ranks variables.
+struct Preference {
+  FillScore score;
+  std::vector<Index> rank;     // of variables with equal score
+  std::vector<double> factor;  // empty: 1
+};
+
+double uniform(std::uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
+Preference preferences(Index n, const GreedyOptions& options) {
+  Preference result{options.score, std::vector<Index>(n), {}};
+  std::iota(result.rank.begin(), result.rank.end(), 0);
+  if (options.seed != 0) {
+    const std::uint64_t start = mix(options.seed);
+    std::vector<Index> drawn = result.rank;
+    std::sort(drawn.begin(), drawn.end(),
+              [&](Index a, Index b) { return mix(start + a) < mix(start + b); });
+    for (Index k = 0; k < n; ++k) result.rank[drawn[k]] = k;
+  }
+  if (options.jitter > 0) {
+    const std::uint64_t start = mix(~options.seed);
+    for (Index v = 0; v < n; ++v) {
+      result.factor.push_back(1 + options.jitter * uniform(mix(start + v)));
+    }
+  }
+  return result;
+}
+
+// Squared where that saves a root: only the order of scores counts.
+template <class Graph>
+double key(const Graph& g, const Preference& preference, Index v) {
+  const double factor = preference.factor.empty() ? 1 : preference.factor[v];
+  const double score = static_cast<double>(fill(g, v)) * factor;
+  if (preference.score == FillScore::plain) return score;
+  const auto frontal = static_cast<double>(g.variables.weight[v]);
+  return score * score / (frontal * (frontal + static_cast<double>(g.degree[v])));
+}
+
+// The variables by ascending stage.
+std::vector<Index> by_stage(const std::vector<int>& stage) {
+  std::vector<Index> sorted(stage.size());
+  std::iota(sorted.begin(), sorted.end(), 0);
+  if (std::is_sorted(stage.begin(), stage.end())) return sorted;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](Index a, Index b) { return stage[a] < stage[b]; });
+  return sorted;
+}
+
+// Eliminates the best variable, again and again, until none is left or `enough`.
+template <class Graph, class Predicate>
+void run(Graph& g, const Preference& preference, Predicate enough) {
+  const std::vector<Index> sorted = by_stage(g.stage);
+  MinQueue queue(static_cast<Index>(sorted.size()));
+  queue.rank = preference.rank;
+  for (auto at = sorted.begin(); at != sorted.end();) {
+    const int stage = g.stage[*at];
+    for (; at != sorted.end() && g.stage[*at] == stage; ++at) {
+      if (g.variables.alive[*at]) set_key(queue, *at, key(g, preference, *at));
+    }
+    while (!queue.empty()) {
+      if (enough()) return;
+      const Index v = pop(queue);
+      if (!g.variables.alive[v]) continue;  // merged since
+      const Index first = better_first(g, v);
+      if (first != v) {
+        set_key(queue, v, key(g, preference, v));
+        erase(queue, first);
+      }
+      eliminate(g, first);
+      for (Index u : g.changed) {
+        if (g.variables.alive[u] && g.stage[u] == stage) set_key(queue, u, key(g, preference, u));
+      }
+    }
+  }
+}
+
+// Eliminates the rest of g by bounds. Its ec is one from above: mass elimination puts variables
+// before their pivot whose own fronts it does not know.
+Supervariables run_by_bounds(FillGraph&& g, const Preference& preference, Wide limit) {
+  QuotientGraph rest = quotient_graph(std::move(g));
+  run(rest, preference, [&] { return rest.variables.ec > limit; });
+  return std::move(rest.variables);
+}
+
+std::vector<int> stages(Index n, const std::vector<Index>& last) {
+  std::vector<int> stage(n, 0);
+  for (Index j : last) stage.at(j) = 1;
+  return stage;
+}
+
+// A pass of so little work per variable and adjacency entry costs so little that there is time for
+// another.
+constexpr std::int64_t cheap_work = 25;
+
+std::int64_t entries(const Adjacency& graph) {
+  return static_cast<std::int64_t>(graph.neighbours.size()) + graph.size();
+}
+
+}  // namespace
+
+GreedyResult greedy_fill(const Pattern& pattern, const Adjacency& graph,
+                         const GreedyOptions& options) {
+  const std::int64_t work_limit = options.exact_work * entries(graph);
+  const Preference preference = preferences(graph.size(), options);
+  FillGraph g = fill_graph(graph, pattern.dim, options.stage, work_limit);
+  if (g.exact) {
+    run(g, preference, [&] { return g.work > work_limit || g.variables.ec > options.limit; });
+  }
+  GreedyResult result{{}, g.variables.ec, g.work};
+  if (result.ec > options.limit) return result;
+  if (g.variables.order.size() == pattern.dim.size()) {
+    result.order = std::move(g.variables.order);
+    return result;
+  }
+  Supervariables variables = run_by_bounds(std::move(g), preference, options.limit);
+  result.ec = variables.ec;
+  if (result.ec > options.limit) return result;
+  result.order = std::move(variables.order);
+  result.ec = elimination_complexity(pattern, result.order);
+  return result;
+}
+
+Order wmf(const Pattern& pattern, const WmfOptions& options) {
+  const Adjacency graph = adjacency(pattern);
+  GreedyOptions greedy;
+  greedy.stage = stages(pattern.variables(), options.last);
+  greedy.seed = options.seed;
+  GreedyResult best = greedy_fill(pattern, graph, greedy);
+  if (best.work > cheap_work * entries(graph)) return std::move(best.order);
+  greedy.score = FillScore::plain;
+  greedy.limit = best.ec;
+  GreedyResult other = greedy_fill(pattern, graph, greedy);
+  return other.ec < best.ec ? std::move(other.order) : std::move(best.order);
+}
+
+namespace ordering {
+
+Order wmf(const Pattern& pattern, const OrderOptions& options) {
+  return sg::wmf(pattern, {options.last, options.seed});
+}
+
+}  // namespace ordering
+}  // namespace sg

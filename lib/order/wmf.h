@@ -1,0 +1,85 @@
+// Weighted minimum fill (wmf): a greedy ordering for graphs whose variables have dimensions.
+//
+// The graph. Vertices are the variables, weighted by tangent dimension d; an edge joins two that
+// share a factor. Eliminating v joins its neighbours N(v) to a clique. What elimination costs is
+//
+//     EC = sum over variables of d_f (d_f + d_s)^2
+//
+// (Frey, Steiner, How, eq. 2), and what makes later fronts large is fill: minimum degree (AMD,
+// COLAMD) looks at the size of N(v) alone, and so takes no notice of how much of the clique is
+// already there. Minimum fill (also: minimum deficiency; Rose 1972; Rothberg, Eisenstat 1998; Ng,
+// Raghavan 1999) does, and saves most where variables have many neighbours that know each other:
+// landmarks seen from consecutive poses.
+//
+// The score. The next variable, or supervariable, is the one with the least
+//
+//     fill(v) / sqrt(d (d + d_s)),    fill(v) = sum of d_a d_b over non-adjacent {a, b} in N(v),
+//
+// d and d_s being its frontal and separator dimension. The root is the geometric mean of the two
+// sides of the part of R that this elimination completes. Its factor sqrt(d) makes a supervariable
+// pay per variable that it removes from the graph, as in approximate minimum mean local fill
+// (Rothberg, Eisenstat); its factor sqrt(d + d_s) forgives fill among many neighbours, who would
+// soon have met anyhow. On SLAM graphs this takes a tenth off the EC of plain minimum fill, on
+// dense landmark graphs a third; plain fill is the better of the two on some sparse graphs, and is
+// tried as well where that is cheap. A variable of no fill (simplicial) scores 0 and goes at once,
+// which some optimal order does too. Before v goes a neighbour of it that has no other neighbours
+// than v's, if that is cheaper (better_first in fill_graph.h): mass elimination, the right way
+// around. Ties go to the lowest index, or by seed.
+//
+// Exactness. While the graph is small enough, fill is exact, kept up to date edge by edge
+// (fill_graph.h). When the work for that has grown past a fixed multiple of the size of the input,
+// the rest of the graph is handed on as a quotient graph, with upper bounds for degree and fill
+// (quotient_graph.h). SLAM graphs of some ten thousand poses are ordered exactly to the end; of a
+// million poses, all but the core.
+//
+// Complexity. With n variables and m adjacent pairs: exact part O((n + m) exact_work) by its budget,
+// plus O(log n) for every changed score; bounded part as AMD's, O(nm) in the worst case and near
+// linear in practice. Memory O(n + m) and the edges of one elimination graph.
+//
+// Sources. Amestoy, Davis, Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix
+// Anal. Appl. 17 (1996): quotient graph, element absorption, mass elimination, supervariables.
+// Rothberg, Eisenstat, Node selection strategies for bottom-up sparse matrix ordering, SIAM J.
+// Matrix Anal. Appl. 19 (1998); Ng, Raghavan, Performance of greedy ordering heuristics for sparse
+// Cholesky factorization, SIAM J. Matrix Anal. Appl. 20 (1999): the family of scores and bounds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/elim/score.h"
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+// What the greedy minimizes at each step: the score above, or fill alone.
+enum class FillScore { balanced, plain };
+
+struct GreedyOptions {
+  FillScore score = FillScore::balanced;
+  std::vector<int> stage;  // of every variable: all of a lower stage go first; empty: one stage
+  std::uint64_t seed = 0;  // 0: ties go to the lowest index; else to the lowest pseudo-random rank
+  double jitter = 0;       // scores are multiplied by 1 + jitter u, u in [0, 1) drawn per variable
+  std::int64_t exact_work = 250;  // list entries looked at per variable and adjacency entry, in the
+                                  // exact part
+  Wide limit = ~Wide{0};          // give up as soon as EC is above
+};
+
+struct GreedyResult {
+  Order order;            // empty if EC went above the limit
+  Wide ec = 0;            // of `order`
+  std::int64_t work = 0;  // list entries looked at in the exact part
+};
+
+// One greedy pass. graph: adjacency(pattern).
+GreedyResult greedy_fill(const Pattern& pattern, const Adjacency& graph,
+                         const GreedyOptions& options);
+
+struct WmfOptions {
+  std::vector<Index> last;  // to be eliminated after all others
+  std::uint64_t seed = 0;   // as in GreedyOptions
+};
+
+// The better of the passes that the size of the graph affords.
+Order wmf(const Pattern& pattern, const WmfOptions& options = {});
+
+}  // namespace sg
