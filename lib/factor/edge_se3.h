@@ -11,6 +11,9 @@
 // the other sign.
 #pragma once
 
+#include <cmath>
+#include <initializer_list>
+
 #include "lib/factor/estimate.h"
 #include "lib/factor/model.h"
 
@@ -24,13 +27,21 @@ inline bool prepare_se3(const double* numbers, double* c) {
   return true;
 }
 
-inline double positive_w(const SE3& a) {
-  return a.q.w() < 0 ? -1 : 1;
+// The product of rotations. Text rounds quaternions, and g2o makes matrices of a file's estimates
+// as they are: where the factors are not of unit length, so do we, for its chi-square is the number
+// to give.
+inline Eigen::Quaterniond rotation_product(std::initializer_list<Eigen::Quaterniond> factors) {
+  Eigen::Quaterniond product = Eigen::Quaterniond::Identity();
+  for (const auto& factor : factors) product = product * factor;
+  if (std::abs(product.squaredNorm() - 1) < 1e-11) return product;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (const auto& factor : factors) R *= factor.toRotationMatrix();
+  return Eigen::Quaterniond(R).normalized();
 }
 
 inline void set_error(const SE3& d, double* e) {
   Eigen::Map<Eigen::Vector3d>{e} = d.t;
-  Eigen::Map<Eigen::Vector3d>{e + 3} = positive_w(d) * d.q.vec();
+  Eigen::Map<Eigen::Vector3d>{e + 3} = (d.q.w() < 0 ? -1 : 1) * d.q.vec();
 }
 
 // The vector part of a (0, v) b is this times v.
@@ -64,7 +75,8 @@ struct EdgeSe3Quat {
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     const SE3 a = inverse(se3(c));
     const SE3 b = between(se3(x[0]), se3(x[1]));
-    const SE3 d = compose(a, b);
+    const auto q = rotation_product({a.q, se3(x[0]).q.conjugate(), se3(x[1]).q});
+    const SE3 d{q, a.q * b.t + a.t};
     set_error(d, e);
     if (!J) return;
     set_jacobian(a, b, -1, J[0]);
@@ -80,30 +92,32 @@ struct EdgeSe3Quat {
 
 struct EdgeSe3Offset {
   static constexpr std::string_view tag = "EDGE_SE3_OFFSET";
-  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 14;
+  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 21;
   static constexpr std::array ends{Space::se3, Space::se3};
   static constexpr std::array params{ParamKind::se3_offset, ParamKind::se3_offset};
 
-  // c = (p_i z), p_j
+  // c = z, p_i, p_j
   static bool prepare(const double* z, const double* const* p, double* c) {
-    if (!prepare_se3(z, c)) return false;
-    set_se3(compose(se3(p[0]), se3(c)), c);
-    set_se3(se3(p[1]), c + 7);
-    return true;
+    set_se3(se3(p[0]), c + 7);
+    set_se3(se3(p[1]), c + 14);
+    return prepare_se3(z, c);
   }
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    const SE3 a = inverse(se3(c)), to = se3(c + 7);
-    const SE3 motion = between(se3(x[0]), se3(x[1]));
-    const SE3 b = compose(motion, to);
-    set_error(compose(a, b), e);
+    const SE3 z = se3(c), from = se3(c + 7), to = se3(c + 14), i = se3(x[0]), j = se3(x[1]);
+    const auto q =
+        rotation_product({z.q.conjugate(), from.q.conjugate(), i.q.conjugate(), j.q, to.q});
+    const Eigen::Vector3d reach = act(j, to.t) - act(i, from.t);
+    const Eigen::Vector3d seen = from.q.conjugate() * (i.q.conjugate() * reach);
+    set_error({q, z.q.conjugate() * (seen - z.t)}, e);
     if (!J) return;
-    set_jacobian(a, b, -1, J[0]);
+    const SE3 a = inverse(compose(from, z)), motion = between(i, j);
+    set_jacobian(a, compose(motion, to), -1, J[0]);
     set_jacobian(compose(a, motion), to, 1, J[1]);
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE3 motion = compose(se3(c), inverse(se3(c + 7)));
+    const SE3 motion = compose(compose(se3(c + 7), se3(c)), inverse(se3(c + 14)));
     set_se3(end == 1 ? compose(se3(x[0]), motion) : compose(se3(x[1]), inverse(motion)), out);
     return true;
   }
@@ -115,20 +129,23 @@ struct EdgeSe3Prior {
   static constexpr std::array ends{Space::se3};
   static constexpr std::array params{ParamKind::se3_offset};
 
-  // c = z, p
+  // c = z, p; of this type alone g2o leaves the measurement's quaternion as its text has it
   static bool prepare(const double* z, const double* const* p, double* c) {
+    set_se3(se3(z), c);
     set_se3(se3(p[0]), c + 7);
-    return prepare_se3(z, c);
+    return se3(z).q.norm() > 1e-6;
   }
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    const SE3 a = between(se3(c), se3(x[0])), p = se3(c + 7);
-    set_error(compose(a, p), e);
-    if (J) set_jacobian(a, p, 1, J[0]);
+    const SE3 z = se3(c), pose = se3(x[0]), p = se3(c + 7);
+    const auto q = rotation_product({z.q.conjugate(), pose.q, p.q});
+    set_error({q, z.q.conjugate() * (act(pose, p.t) - z.t)}, e);
+    if (J) set_jacobian(between(z, pose), p, 1, J[0]);
   }
 
   static bool place(const double* const*, const double* c, int, double* out) {
-    set_se3(compose(se3(c), inverse(se3(c + 7))), out);
+    const SE3 x = compose(se3(c), inverse(se3(c + 7)));
+    set_se3({x.q.normalized(), x.t}, out);
     return true;
   }
 };

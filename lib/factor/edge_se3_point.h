@@ -17,6 +17,14 @@ inline Eigen::Vector3d in_frame(const double* x, const double* landmark) {
   return pose.q.conjugate() * (vector3(landmark) - pose.t);
 }
 
+// (x p)^-1 l, with the product's translation formed first: a quaternion that text has rounded makes
+// a difference, and g2o's chi-square is the number to give.
+inline Eigen::Vector3d in_sensor(const double* x, const SE3& p, const double* landmark) {
+  const SE3 pose = se3(x);
+  const Eigen::Vector3d origin = pose.q * p.t + pose.t;
+  return p.q.conjugate() * (pose.q.conjugate() * (vector3(landmark) - origin));
+}
+
 // Jacobians of f((x p)^-1 l), with `slope` the Jacobian of f and `local` = x^-1 l.
 inline void set_point_jacobians(const Eigen::Matrix3d& slope, const double* x, const SE3& p,
                                 const Eigen::Vector3d& local, double* const* J) {
@@ -42,9 +50,9 @@ struct EdgeSe3TrackXyz {
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     const SE3 p = se3(c + 3);
-    const Eigen::Vector3d local = in_frame(x[0], x[1]);
-    Eigen::Map<Eigen::Vector3d>{e} = p.q.conjugate() * (local - p.t) - vector3(c);
-    if (J) set_point_jacobians(Eigen::Matrix3d::Identity(), x[0], p, local, J);
+    Eigen::Map<Eigen::Vector3d>{e} = in_sensor(x[0], p, x[1]) - vector3(c);
+    if (!J) return;
+    set_point_jacobians(Eigen::Matrix3d::Identity(), x[0], p, in_frame(x[0], x[1]), J);
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
@@ -74,8 +82,7 @@ struct EdgePixelDepth {
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     const SE3 p = se3(c + 3);
     const double fx = c[10], fy = c[11], cx = c[12], cy = c[13];
-    const Eigen::Vector3d local = in_frame(x[0], x[1]);
-    const Eigen::Vector3d seen = p.q.conjugate() * (local - p.t);
+    const Eigen::Vector3d seen = in_sensor(x[0], p, x[1]);
     const double w = seen[2], u = seen[0] / w, v = seen[1] / w;
     e[0] = fx * u + cx - c[0];
     e[1] = fy * v + cy - c[1];
@@ -83,7 +90,7 @@ struct EdgePixelDepth {
     if (!J) return;
     const Eigen::Matrix3d slope{
         {fx / w, 0, -fx * u / w}, {0, fy / w, -fy * v / w}, {0, 0, Third::slope(w)}};
-    set_point_jacobians(slope, x[0], p, local, J);
+    set_point_jacobians(slope, x[0], p, in_frame(x[0], x[1]), J);
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {

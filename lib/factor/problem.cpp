@@ -49,9 +49,10 @@ void normalize_param(const Graph& graph, ParamKind kind, ParsedParam& param) {
     throw error_at(graph, param.line, quoted(param.tag) + " has too few numbers");
   }
   if (kind != ParamKind::se3_offset && kind != ParamKind::camera_calibration) return;
-  if (!from_file(Space::se3, std::vector<double>(param.numbers).data(), param.numbers.data())) {
-    throw error_at(graph, param.line, "a quaternion has length zero");
-  }
+  SE3 pose = se3(param.numbers.data());
+  if (pose.q.norm() < 1e-6) throw error_at(graph, param.line, "a quaternion has length zero");
+  pose.q.normalize();
+  set_se3(pose, param.numbers.data());
 }
 
 // What make_problem goes through the edges with.

@@ -81,8 +81,7 @@ bool from_file(Space space, const double* numbers, double* x) {
   std::copy_n(numbers, space_size(space), x);
   if (space != Space::se3 && space != Space::expmap) return true;
   if (se3(x).q.norm() < 1e-6) return false;
-  const SE3 pose = normalized(se3(x));
-  set_se3(space == Space::expmap ? inverse(pose) : pose, x);
+  if (space == Space::expmap) set_se3(inverse(normalized(se3(x))), x);
   return true;
 }
 

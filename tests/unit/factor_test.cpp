@@ -46,12 +46,13 @@ Instance random_instance(const Model& model) {
   for (int k = 0; k < model.arity; ++k) instance.x.push_back(random_estimate(model.ends[k]));
   std::vector<double> z(model.measurement + model.extra);
   for (double& number : z) number = uniform(0.5, 1.5);
+  if (model.measurement == 7) Eigen::Map<Eigen::Vector4d>(z.data() + 3).normalize();
   std::vector<std::vector<double>> params;
   std::vector<const double*> pointers;
   for (ParamKind kind : model.params) {
     std::vector<double> param(param_size(kind));
     for (double& number : param) number = uniform(0.1, 0.9);
-    if (param.size() >= 7) REQUIRE(from_file(Space::se3, std::vector(param).data(), param.data()));
+    if (param.size() >= 7) Eigen::Map<Eigen::Vector4d>(param.data() + 3).normalize();
     params.push_back(param);
   }
   for (const auto& param : params) pointers.push_back(param.data());
