@@ -1,0 +1,15 @@
+// Estimates back into a graph's text.
+#pragma once
+
+#include "formats/write.h"
+#include "lib/factor/problem.h"
+
+namespace sg {
+
+// The changes that give every vertex of `moved` its estimate: the numbers of its VERTEX line, or,
+// in a file without VERTEX lines, a line for every vertex before the first edge. What stands behind
+// the numbers, and everything else, stays as it is.
+Changes estimate_changes(const Problem& problem, const Values& values,
+                         const std::vector<bool>& moved);
+
+}  // namespace sg

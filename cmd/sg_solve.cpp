@@ -1,0 +1,204 @@
+// sg-solve: batch optimization.
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "cmd/common/command.h"
+#include "cmd/common/estimates.h"
+#include "cmd/common/table.h"
+#include "lib/elim/score.h"
+#include "lib/factor/initialize.h"
+#include "lib/graph/tokens.h"
+#include "lib/order/order.h"
+#include "lib/solve/batch.h"
+
+namespace {
+
+const std::vector<std::string_view> time_columns{"order",    "backend", "threads", "variables",
+                                                 "factors",  "ec",      "runs",    "plan_s",
+                                                 "median_s", "s_per_ec"};
+
+struct Options {
+  sg::Input input;
+  sg::OutputOptions output;
+  sg::TableOptions table;
+  std::string method = "lm";
+  int iterations = 100;
+  double tolerance = 1e-9;
+  std::string kernel;
+  std::string order = "colamd";
+  std::string backend{sg::backends().front().name};
+  int threads = 0;
+  int runs = 0;
+  bool chi2 = false;
+  bool from_edges = false;
+};
+
+void add_options(sg::Command& command, Options& options) {
+  sg::add_input(command, options.input);
+  auto& app = command.app;
+  app.add_option("--method", options.method, "lm: Levenberg-Marquardt (default); gn: Gauss-Newton")
+      ->option_text("lm|gn");
+  app.add_option("-i,--iterations", options.iterations, "At most N iterations (default: 100)")
+      ->option_text("N")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--tolerance", options.tolerance,
+                 "Stop when a step changes chi-square by\nless than this share (default: 1e-9)")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--kernel", options.kernel, "Robust kernel huber or cauchy, of width W")
+      ->option_text("NAME:W");
+  app.add_option("-m,--order", options.order, "Elimination ordering (default: colamd)")
+      ->option_text("ORDERING");
+  app.add_option("--backend", options.backend, "Eliminate by " + sg::backend_names())
+      ->option_text("NAME");
+  app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
+      ->option_text("N")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--init", options.from_edges,
+               "Start from the edges alone, not from the file's estimates");
+  app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
+  app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
+      ->option_text("N")
+      ->check(CLI::PositiveNumber);
+  sg::add_filter_output(command, options.output);
+  sg::add_table(command, options.table, time_columns);
+}
+
+sg::Kernel parse_kernel(const std::string& text) {
+  if (text.empty()) return {};
+  const auto colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const auto width =
+      sg::parse<double>(colon == text.npos ? "" : std::string_view(text).substr(colon + 1));
+  if (width && *width > 0) {
+    if (name == "huber") return {sg::KernelShape::huber, *width};
+    if (name == "cauchy") return {sg::KernelShape::cauchy, *width};
+  }
+  throw sg::usage_error("--kernel wants huber:W or cauchy:W with W above 0, not '" + text + "'");
+}
+
+sg::BatchOptions batch_options(const Options& options) {
+  sg::BatchOptions batch;
+  if (options.method != "lm" && options.method != "gn") {
+    throw sg::usage_error("--method wants lm or gn, not '" + options.method + "'");
+  }
+  batch.method =
+      options.method == "gn" ? sg::BatchMethod::gauss_newton : sg::BatchMethod::levenberg_marquardt;
+  batch.iterations = options.iterations;
+  batch.tolerance = options.tolerance;
+  batch.kernel = parse_kernel(options.kernel);
+  return batch;
+}
+
+// The order that -m asks for, of the graph without the gauge's row.
+sg::Order elimination_order(const Options& options, const sg::Graph& graph) {
+  const sg::GraphPattern variables = sg::graph_pattern(graph);
+  return sg::elimination_order(options.order, variables.pattern,
+                               sg::order_options(graph, variables));
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> times) {
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+void print_times(const Options& options, const sg::Problem& problem, const sg::Values& values) {
+  const sg::Order order = elimination_order(options, *problem.graph);
+  const sg::Pattern& pattern = problem.variables.pattern;
+  sg::LinearSystem system = sg::make_linear_system(problem);
+  sg::linearize(problem, values, parse_kernel(options.kernel), system);
+  const auto start = std::chrono::steady_clock::now();
+  const auto solver = sg::find_backend(options.backend).make(system, order, options.threads);
+  const double plan = seconds_since(start);
+  std::vector<double> times;
+  for (int k = 0; k < options.runs; ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    if (!solver.eliminate(system, {})) throw sg::singular_error(problem, order, system);
+    times.push_back(seconds_since(begin));
+  }
+  const sg::Wide ec = sg::elimination_complexity(pattern, order);
+  sg::Output output(options.output.path);
+  sg::Table table(options.table, time_columns, output);
+  table.row({options.order, options.backend, std::int64_t{options.threads},
+             std::int64_t{pattern.variables()}, std::int64_t{problem.graph->edges()}, ec,
+             std::int64_t{options.runs}, plan, median(times), median(times) / sg::to_double(ec)});
+  output.commit();
+}
+
+void print_iteration(const sg::Iteration& iteration) {
+  std::cerr << iteration.number << '\t' << sg::format_number(iteration.chi2) << '\t'
+            << sg::format_number(iteration.lambda) << '\t' << sg::format_number(iteration.step)
+            << '\t' << (iteration.kept ? "yes" : "no") << '\t'
+            << sg::format_number(iteration.linearize_s) << '\t'
+            << sg::format_number(iteration.eliminate_s) << '\n';
+}
+
+// Which vertices' lines an optimization rewrites: all but the constants.
+std::vector<bool> moved(const sg::Problem& problem) {
+  std::vector<bool> result(problem.graph->vertices(), false);
+  for (std::size_t j = 0; j < problem.variables.variable_vertex.size(); ++j) {
+    result[problem.variables.variable_vertex[j]] = static_cast<sg::Index>(j) != problem.held;
+  }
+  return result;
+}
+
+void solve(const sg::Command& command, const Options& options, const sg::Problem& problem,
+           sg::Values values) {
+  const sg::Order order = elimination_order(options, *problem.graph);
+  sg::LinearSystem system = sg::make_linear_system(problem);
+  const auto solver = sg::find_backend(options.backend).make(system, order, options.threads);
+  std::function<void(const sg::Iteration&)> report;
+  if (command.verbose) {
+    const sg::Kernel kernel = parse_kernel(options.kernel);
+    std::cerr << "iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n";
+    print_iteration({0, sg::chi2(problem, values, kernel), 0, 0, true, 0, 0});
+    report = print_iteration;
+  }
+  const sg::BatchResult result =
+      sg::optimize(problem, order, system, solver, batch_options(options), values, report);
+  if (!result.converged) {
+    sg::warn(command, "not converged after " + std::to_string(result.iterations) +
+                          " iterations, chi-square " + sg::format_number(result.chi2));
+  }
+  sg::write_filtered(command, options.output, *problem.graph,
+                     sg::estimate_changes(problem, values, moved(problem)));
+}
+
+void run(const sg::Command& command, Options options) {
+  batch_options(options);
+  sg::find_backend(options.backend);
+  sg::find_ordering(options.order);
+  if (options.threads == 0) options.threads = tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
+
+  const sg::Graph graph = sg::read(options.input);
+  const sg::Problem problem = sg::make_problem(graph);
+  sg::Values values = options.from_edges ? sg::initial_values(problem) : sg::start_values(problem);
+  if (options.chi2) {
+    sg::Output output(options.output.path);
+    output.write(sg::format_number(sg::chi2(problem, values, parse_kernel(options.kernel))) + "\n");
+    output.commit();
+  } else if (options.runs > 0) {
+    print_times(options, problem, values);
+  } else {
+    solve(command, options, problem, std::move(values));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  sg::Command command("sg-solve", "Optimize a graph; time its elimination.");
+  Options options;
+  add_options(command, options);
+  return sg::run(command, argc, argv, [&] { run(command, options); });
+}

@@ -1,0 +1,88 @@
+#include "lib/solve/undetermined.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "lib/solve/cholmod.h"
+
+namespace sg {
+namespace {
+
+constexpr double held_pivot = 1e-12;  // what a vanished pivot becomes, beside entries of 1
+constexpr double noticeable = 1e-6;   // share of the largest movement
+
+// H := S H S with a unit diagonal. A scalar that nothing measures gets none: its pivot will vanish.
+void scale_to_unit_diagonal(NormalEquations& normal) {
+  std::vector<double> scale(normal.scalars());
+  for (int k = 0; k < normal.scalars(); ++k) {
+    const double diagonal = normal.numbers[normal.column_begin[k + 1] - 1];
+    scale[k] = diagonal > 0 ? 1 / std::sqrt(diagonal) : 0;
+  }
+  for (int k = 0; k < normal.scalars(); ++k) {
+    for (int at = normal.column_begin[k]; at < normal.column_begin[k + 1]; ++at) {
+      normal.numbers[at] *= scale[k] * scale[normal.rows[at]];
+    }
+  }
+}
+
+// The largest movement among each variable's scalars.
+std::vector<double> movements(const NormalEquations& normal, const double* x) {
+  std::vector<double> largest;
+  for (std::size_t j = 0; j < normal.dim.size(); ++j) {
+    const double* const first = x + normal.scalar_at[j];
+    largest.push_back(0);
+    for (int k = 0; k < normal.dim[j]; ++k) {
+      largest.back() = std::max(largest.back(), std::abs(first[k]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::vector<Index> undetermined_variables(const LinearSystem& system, const Order& order) {
+  NormalEquations normal = normal_structure(system, order);
+  form_normal_equations(system, {}, normal);
+  scale_to_unit_diagonal(normal);
+  std::mt19937 bits(1);
+  for (double& number : normal.gradient) number = 0.5 + bits() / (2.0 * std::mt19937::max());
+
+  CholmodCommon cholmod;
+  cholmod_common& common = cholmod.common;
+  common.supernodal = CHOLMOD_SIMPLICIAL;
+  common.dbound = held_pivot;
+  const CholmodFactor factor = analyze(normal, common);
+  cholmod_sparse H = view(normal);
+  cholmod_factorize(&H, factor.get(), &common);
+  cholmod_dense right = view(normal.gradient);
+  const CholmodDense x(cholmod_solve(CHOLMOD_A, factor.get(), &right, &common), {&common});
+
+  const auto moved = movements(normal, static_cast<const double*>(x->x));
+  const double limit = noticeable * *std::ranges::max_element(moved);
+  std::vector<Index> undetermined;
+  for (std::size_t j = 0; j < moved.size(); ++j) {
+    if (moved[j] > limit) undetermined.push_back(static_cast<Index>(j));
+  }
+  return undetermined;
+}
+
+std::string id_ranges(const std::vector<Id>& ids, const std::vector<Id>& all) {
+  std::vector<std::string> ranges;
+  for (std::size_t first = 0, last; first < ids.size(); first = last + 1) {
+    auto at = std::ranges::lower_bound(all, ids[first]);
+    for (last = first; last + 1 < ids.size() && *++at == ids[last + 1];) ++last;
+    const std::string from = std::to_string(ids[first]), to = std::to_string(ids[last]);
+    if (last == first) ranges.push_back(from);
+    if (last == first + 1) ranges.insert(ranges.end(), {from, to});
+    if (last > first + 1) ranges.push_back(from + "-" + to);
+  }
+  std::string text = ids.size() == 1 ? "vertex " : "vertices ";
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    if (k > 0) text += k + 1 == ranges.size() ? " and " : ", ";
+    text += ranges[k];
+  }
+  return text;
+}
+
+}  // namespace sg
