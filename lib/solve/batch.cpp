@@ -173,7 +173,7 @@ Error singular_error(const Problem& problem, const Order& order, const LinearSys
     undetermined.push_back(ids[problem.variables.variable_vertex[j]]);
   }
   return computation_error("the system is singular: the measurements leave " +
-                           id_ranges(undetermined, ids) + " undetermined");
+                           id_ranges(undetermined) + " undetermined");
 }
 
 }  // namespace sg

@@ -9,8 +9,9 @@
 namespace sg {
 namespace {
 
-constexpr double held_pivot = 1e-12;  // what a vanished pivot becomes, beside entries of 1
-constexpr double noticeable = 1e-6;   // share of the largest movement
+constexpr std::size_t most_ranges = 20;  // in a message
+constexpr double held_pivot = 1e-12;     // what a vanished pivot becomes, beside entries of 1
+constexpr double noticeable = 1e-6;      // share of the largest movement
 
 // H := S H S with a unit diagonal. A scalar that nothing measures gets none: its pivot will vanish.
 void scale_to_unit_diagonal(NormalEquations& normal) {
@@ -67,20 +68,22 @@ std::vector<Index> undetermined_variables(const LinearSystem& system, const Orde
   return undetermined;
 }
 
-std::string id_ranges(const std::vector<Id>& ids, const std::vector<Id>& all) {
-  std::vector<std::string> ranges;
-  for (std::size_t first = 0, last; first < ids.size(); first = last + 1) {
-    auto at = std::ranges::lower_bound(all, ids[first]);
-    for (last = first; last + 1 < ids.size() && *++at == ids[last + 1];) ++last;
-    const std::string from = std::to_string(ids[first]), to = std::to_string(ids[last]);
-    if (last == first) ranges.push_back(from);
-    if (last == first + 1) ranges.insert(ranges.end(), {from, to});
-    if (last > first + 1) ranges.push_back(from + "-" + to);
+std::string id_ranges(const std::vector<Id>& ids) {
+  std::vector<std::string> parts;
+  std::size_t first = 0;
+  while (first < ids.size() && parts.size() < most_ranges) {
+    std::size_t last = first;
+    while (last + 1 < ids.size() && ids[last + 1] == ids[last] + 1) ++last;
+    if (last == first + 1) last = first;  // two are no range
+    const std::string from = std::to_string(ids[first]);
+    parts.push_back(last == first ? from : from + "-" + std::to_string(ids[last]));
+    first = last + 1;
   }
+  if (first < ids.size()) parts.push_back(std::to_string(ids.size() - first) + " more");
   std::string text = ids.size() == 1 ? "vertex " : "vertices ";
-  for (std::size_t k = 0; k < ranges.size(); ++k) {
-    if (k > 0) text += k + 1 == ranges.size() ? " and " : ", ";
-    text += ranges[k];
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0) text += k + 1 == parts.size() ? " and " : ", ";
+    text += parts[k];
   }
   return text;
 }

@@ -13,8 +13,7 @@ namespace sg {
 // with a perfect shift; Golub, Van Loan, section 8.2.2).
 std::vector<Index> undetermined_variables(const LinearSystem& system, const Order& order);
 
-// "vertex 5" or "vertices 3, 7-12 and 15": by id, consecutive ones of `ids` (ascending) that no other id of `all`
-// (ascending) parts as a range.
-std::string id_ranges(const std::vector<Id>& ids, const std::vector<Id>& all);
+// "vertex 5" or "vertices 3, 7-12 and 15", from ascending ids; at most 20 ranges, then "and 7 more".
+std::string id_ranges(const std::vector<Id>& ids);
 
 }  // namespace sg
