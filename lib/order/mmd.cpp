@@ -7,9 +7,12 @@
 namespace sg::ordering {
 namespace {
 
+// Boost looks one place beyond its lists by degree when vertices of the largest degree possible go.
+// A vertex without neighbours, which goes first and costs nothing, makes the lists longer by one.
 Order order_part(const Part& part) {
   BoostGraph graph = boost_graph(part.adjacency);
-  const auto n = static_cast<std::size_t>(part.adjacency.size());
+  const auto lone = static_cast<Index>(boost::add_vertex(graph));
+  const auto n = boost::num_vertices(graph);
   std::vector<int> degree(n, 0);
   std::vector<int> position(n, 0);
   std::vector<int> supernode_size(n, 1);
@@ -17,6 +20,7 @@ Order order_part(const Part& part) {
   boost::minimum_degree_ordering(graph, vertex_map(degree, graph), position.data(), order.data(),
                                  vertex_map(supernode_size, graph), 0,
                                  boost::get(boost::vertex_index, graph));
+  std::erase(order, lone);
   return order;
 }
 
