@@ -17,18 +17,16 @@ struct Options {
 void add_options(sg::Command& command, Options& options) {
   const auto positive = CLI::PositiveNumber.description("");
   sg::add_input(command, options.input);
-  auto* rate = command.app.add_option("-r,--rate", options.rule.rate, "Every R-th pose stays")
-                   ->type_name("R")
-                   ->check(sg::at_least_one());
+  command.app.add_option("-r,--rate", options.rule.rate, "Every R-th pose stays")
+      ->type_name("R")
+      ->check(sg::at_least_one());
   command.app
       .add_option("--dist", options.rule.distance, "A keyframe every D metres travelled, or")
       ->type_name("D")
-      ->check(positive)
-      ->excludes(rate);
+      ->check(positive);
   command.app.add_option("--angle", options.degrees, "every A degrees turned")
       ->type_name("A")
-      ->check(positive)
-      ->excludes(rate);
+      ->check(positive);
   command.app
       .add_option(
           "--loops", options.loops,
@@ -52,8 +50,9 @@ void report(const sg::Command& command, const sg::Keyframing& keyframing) {
 
 void prune(const sg::Command& command, Options options) {
   options.rule.angle = options.degrees * std::numbers::pi / 180;
-  if (options.rule.rate == 0 && options.rule.distance == 0 && options.rule.angle == 0)
-    throw sg::usage_error("how many keyframes? Give -r, --dist or --angle");
+  const bool travelled = options.rule.distance > 0 || options.rule.angle > 0;
+  if ((options.rule.rate > 0) == travelled)
+    throw sg::usage_error("how many keyframes? Give -r, or --dist and --angle or one of them");
   const sg::Graph graph = sg::read(options.input);
   const sg::PoseIndex poses = sg::pose_index(graph);
   const sg::Odometry odometry = sg::odometry_steps(graph, poses);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/graph/tokens.h"
+
 namespace sg {
 namespace {
 
@@ -18,7 +20,7 @@ void add_candidates(Command& command, std::string& name) {
                   "What may go: observations, loops or both;\n"
                   "observations if there are landmarks, else loops")
       ->type_name("KIND")
-      ->check(CLI::IsMember({"observations", "loops", "both"}));
+      ->check(CLI::IsMember({"observations", "loops", "both"}).description(""));
 }
 
 Candidates candidates_named(const std::string& name, const Graph& graph) {
@@ -28,7 +30,12 @@ Candidates candidates_named(const std::string& name, const Graph& graph) {
 }
 
 CLI::Validator at_least_one() {
-  return CLI::Range(Index{1}, std::numeric_limits<Index>::max()).description("");
+  return {[](std::string& text) {
+            const auto value = parse<Index>(text);
+            return value && *value >= 1 ? std::string()
+                                        : "wants a whole number of 1 or more, not '" + text + "'";
+          },
+          ""};
 }
 
 void add_min_obs(Command& command, Index& min_obs) {
@@ -38,18 +45,23 @@ void add_min_obs(Command& command, Index& min_obs) {
 }
 
 void add_amount(Command& command, Amount& amount) {
-  auto* group = command.app.add_option_group("How many candidates stay (one of these)");
-  group->add_option("-r,--rate", amount.rate, "One in R stays")
-      ->type_name("R")
-      ->check(at_least_one());
-  group->add_option("-p,--part", amount.fraction, "This part of them stays, 0 to 1")
-      ->type_name("FRACTION")
-      ->check(CLI::Range(0.0, 1.0).description(""));
-  group->add_option("-k,--keep", amount.count, "So many stay")
-      ->type_name("COUNT")
-      ->check(CLI::NonNegativeNumber.description(""));
-  group->add_option("--like", amount.like, "As many stay as FILE has")->type_name("FILE");
-  group->require_option(1);
+  const std::vector<CLI::Option*> ways{
+      command.app.add_option("-r,--rate", amount.rate, "How many candidates stay: one in R,")
+          ->type_name("R")
+          ->check(at_least_one()),
+      command.app.add_option("-p,--part", amount.fraction, "or this part of them (0 to 1),")
+          ->type_name("FRACTION")
+          ->check(CLI::Range(0.0, 1.0).description("")),
+      command.app.add_option("-k,--keep", amount.count, "or so many,")
+          ->type_name("COUNT")
+          ->check(CLI::NonNegativeNumber.description("")),
+      command.app.add_option("--like", amount.like, "or as many as FILE has")->type_name("FILE")};
+  command.app.parse_complete_callback([ways] {
+    const auto given =
+        std::count_if(ways.begin(), ways.end(), [](const auto* way) { return way->count() > 0; });
+    if (given != 1)
+      throw CLI::ValidationError("how many candidates stay? Give one of -r, -p, -k, --like");
+  });
 }
 
 std::size_t kept_count(const Amount& amount, std::size_t candidates, Candidates kind,
