@@ -1,0 +1,107 @@
+#include "lib/solve/isam2_replay.h"
+
+#include <algorithm>
+
+#include "lib/factor/initialize.h"
+#include "lib/graph/error.h"
+#include "lib/solve/snapshot.h"
+#include "lib/solve/undetermined.h"
+
+namespace sg {
+namespace {
+
+// Edges of the step that stand at v, those to the pose before it first: odometry goes before loop
+// closures.
+std::vector<Index> edges_at(const Isam2Replay& replay, Index v, std::span<const Index> edges) {
+  const Graph& graph = *replay.problem->graph;
+  const Index before =
+      replay.poses.index[v] > 0 ? replay.poses.pose[replay.poses.index[v] - 1] : -1;
+  std::vector<Index> found;
+  for (Index e : edges) {
+    if (std::ranges::find(graph.edge(e), v) != graph.edge(e).end()) found.push_back(e);
+  }
+  std::stable_partition(found.begin(), found.end(), [&](Index e) {
+    return std::ranges::find(graph.edge(e), before) != graph.edge(e).end();
+  });
+  return found;
+}
+
+void start_vertex(Isam2Replay& replay, Index v, std::span<const Index> edges) {
+  const Problem& problem = *replay.problem;
+  Values& estimate = replay.isam.estimate;
+  double* const x = estimate.data() + problem.value_at[v];
+  const bool keep = replay.start_from_file || problem.graph->fixed[v];
+  if (keep || !place_vertex(problem, v, edges_at(replay, v, edges), replay.placed, estimate)) {
+    if (replay.file.empty()) {
+      set_origin(problem.space[v], x);
+    } else {
+      std::copy(replay.file.begin() + problem.value_at[v],
+                replay.file.begin() + problem.value_at[v + 1], x);
+    }
+  }
+  std::copy(estimate.begin() + problem.value_at[v], estimate.begin() + problem.value_at[v + 1],
+            replay.isam.linearized.begin() + problem.value_at[v]);
+  replay.placed[v] = true;
+}
+
+// Elimination names the last variables of what is free to move; the null space knows them all.
+[[noreturn]] void throw_singular(const Isam2Replay& replay, Index step) {
+  const Problem& problem = *replay.problem;
+  Snapshot snapshot;
+  take_snapshot(replay.isam, true, snapshot);
+  const Order order = elimination_order("colamd", snapshot.anchored);
+  std::vector<Id> undetermined;
+  for (Index j : undetermined_variables(snapshot.system, order)) {
+    const Index v = problem.variables.variable_vertex[snapshot.variable[j]];
+    undetermined.push_back(problem.graph->id[v]);
+  }
+  throw computation_error("step " + std::to_string(step) +
+                          ": the system is singular: the measurements leave " +
+                          id_ranges(undetermined) + " undetermined");
+}
+
+}  // namespace
+
+Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& options, int min_obs,
+                              bool start_from_file) {
+  const Graph& graph = *problem.graph;
+  if (start_from_file && graph.edges_only)
+    throw input_error(graph.file, 0, "the file has no VERTEX line to start from");
+  Isam2Replay result;
+  result.problem = &problem;
+  result.start_from_file = start_from_file;
+  if (!graph.edges_only) result.file = file_values(problem);
+  result.poses = pose_index(graph);
+  result.steps = replay(graph, result.poses, min_obs);
+  result.vertices = by_step(result.steps.vertex_step, result.steps.steps);
+  result.edges = by_step(result.steps.edge_step, result.steps.steps);
+  result.placed.assign(graph.vertices(), false);
+  result.isam = make_isam2(problem, options);
+  return result;
+}
+
+Isam2Report replay_step(Isam2Replay& replay, Index k) {
+  const Problem& problem = *replay.problem;
+  const Graph& graph = *problem.graph;
+  const auto edges = replay.edges[k];
+  std::vector<Index> variables;
+  std::vector<Index> rows;
+  for (const Role role : {Role::pose, Role::landmark, Role::other}) {
+    for (Index v : replay.vertices[k]) {
+      if (graph.role(v) != role) continue;
+      start_vertex(replay, v, edges);
+      const Index j = problem.variables.vertex_variable[v];
+      if (j < 0) continue;
+      variables.push_back(j);
+      if (j == problem.held) rows.push_back(graph.edges());
+    }
+  }
+  for (Index e : edges) {
+    if (!problem.variables.pattern.row(e).empty()) rows.push_back(e);
+  }
+  const Isam2Report report = update(replay.isam, variables, rows);
+  if (!report.undetermined.empty()) throw_singular(replay, k);
+  return report;
+}
+
+}  // namespace sg

@@ -1,0 +1,36 @@
+// A graph replayed step by step (lib/graph/replay.h) through iSAM2.
+//
+// A step's new vertices start from the current estimate: poses composed along odometry, else along
+// another edge of the step; then landmarks and others from their observations (initialize.h). A
+// vertex that no edge of its step places starts where the file has it, or at the origin; so do fixed
+// vertices, which are constants.
+#pragma once
+
+#include <vector>
+
+#include "lib/graph/replay.h"
+#include "lib/solve/isam2.h"
+
+namespace sg {
+
+struct Isam2Replay {
+  const Problem* problem = nullptr;  // outlives it
+  bool start_from_file = false;      // all vertices start where the file has them
+  Values file;                       // start_values without; of a file without estimates: empty
+  PoseIndex poses;
+  Replay steps;
+  ByStep vertices;  // by step
+  ByStep edges;     // by step
+  std::vector<bool> placed;
+  Isam2 isam;
+};
+
+// start_from_file needs a file with estimates; throws an input Error otherwise.
+Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& options, int min_obs,
+                              bool start_from_file);
+
+// Step k, after 0 .. k - 1. Throws a computation Error that names the step and the undetermined
+// vertices if it cannot be solved.
+Isam2Report replay_step(Isam2Replay& replay, Index k);
+
+}  // namespace sg

@@ -1,0 +1,22 @@
+// What an incremental smoother holds, as a system of its own: for scoring it, and for eliminating it
+// in batch.
+#pragma once
+
+#include <vector>
+
+#include "lib/solve/isam2.h"
+
+namespace sg {
+
+struct Snapshot {
+  std::vector<Index> variable;  // of the problem, ascending
+  Pattern pattern;              // of the edges, as a score has it
+  Pattern anchored;             // with the gauge's row, if there is one, at the end
+  LinearSystem system;          // of `anchored`, at the linearization points
+};
+
+// Overwrites `snapshot`, whose address must not change as long as its system is used. numbers: whether
+// the system is wanted, too.
+void take_snapshot(const Isam2& isam, bool numbers, Snapshot& snapshot);
+
+}  // namespace sg
