@@ -1,6 +1,7 @@
 #include "formats/write.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "lib/graph/tokens.h"
 
@@ -36,27 +37,78 @@ void edit_fix_lines(const Graph& graph, const std::vector<bool>& drop_vertex,
   }
 }
 
-// The places of dropped lines, in file order: without a replacement, thus half the size of an Edit.
-struct Span {
-  Offset begin;
-  Offset end;
+// Vertices with a line, in the order of their lines; empty where that is the order of their ids.
+std::vector<Index> line_order(const Graph& graph) {
+  if (graph.edges_only || std::is_sorted(graph.vertex_line.begin(), graph.vertex_line.end()))
+    return {};
+  std::vector<Index> order(graph.vertices());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return graph.vertex_line[a] < graph.vertex_line[b]; });
+  return order;
+}
+
+// The changes to vertices and edges as edits in file order, one at a time.
+class LineEdits {
+ public:
+  LineEdits(const Graph& graph, const Changes& changes)
+      : graph_(graph), changes_(changes), order_(line_order(graph)) {
+    if (graph.edges_only) v_ = graph.vertices();
+    next_vertex();
+    next_edge();
+  }
+
+  const Edit* next() {
+    const bool vertex = vertex_ && (!edge_ || vertex_->begin < edge_->begin);
+    if (!vertex && !edge_) return nullptr;
+    edit_ = std::move(vertex ? *vertex_ : *edge_);
+    vertex ? next_vertex() : next_edge();
+    return &edit_;
+  }
+
+ private:
+  void next_vertex() {
+    vertex_.reset();
+    for (; v_ < graph_.vertices() && !vertex_; ++v_) {
+      const Index v = order_.empty() ? v_ : order_[v_];
+      if (!changes_.drop_vertex[v]) continue;
+      const auto [begin, end] = vertex_extent(graph_, v);
+      vertex_ = Edit{begin, end, ""};
+    }
+  }
+
+  void next_edge() {
+    edge_.reset();
+    for (; e_ < graph_.edges() && !edge_; ++e_) {
+      const bool late = !changes_.late_edge.empty() && changes_.late_edge[e_];
+      const Offset begin = graph_.edge_line[e_];
+      if (changes_.drop_edge[e_] || late) {
+        edge_ = Edit{begin, line_extent(graph_, begin).second, ""};
+      } else if (auto line = changes_.edge_line ? changes_.edge_line(e_) : std::nullopt) {
+        const std::string_view old = line_at(graph_, begin);  // its line end stays
+        const Offset length = old.size() - (old.ends_with('\r') ? 1 : 0);
+        edge_ = Edit{begin, begin + length, std::move(*line)};
+      }
+    }
+  }
+
+  const Graph& graph_;
+  const Changes& changes_;
+  std::vector<Index> order_;
+  Index v_ = 0;
+  Index e_ = 0;
+  std::optional<Edit> vertex_;
+  std::optional<Edit> edge_;
+  Edit edit_{};
 };
 
-std::vector<Span> dropped_lines(const Graph& graph, const Changes& changes) {
-  std::vector<Span> spans;
-  for (Index v = 0; v < graph.vertices(); ++v) {
-    if (!changes.drop_vertex[v] || graph.vertex_line[v] == implied) continue;
-    const auto [begin, end] = vertex_extent(graph, v);
-    spans.push_back({begin, end});
+void write_late_edges(const Graph& graph, const Changes& changes, Sink& sink) {
+  for (Index e = 0; e < static_cast<Index>(changes.late_edge.size()); ++e) {
+    if (!changes.late_edge[e] || changes.drop_edge[e]) continue;
+    const auto line = changes.edge_line ? changes.edge_line(e) : std::nullopt;
+    sink.write(line ? *line : line_at(graph, graph.edge_line[e]));
+    sink.write("\n");
   }
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (!changes.drop_edge[e]) continue;
-    const auto [begin, end] = line_extent(graph, graph.edge_line[e]);
-    spans.push_back({begin, end});
-  }
-  std::sort(spans.begin(), spans.end(),
-            [](const Span& a, const Span& b) { return a.begin < b.begin; });
-  return spans;
 }
 
 // The end of the comment lines at the head of the text.
@@ -92,8 +144,10 @@ std::pair<Offset, Offset> vertex_extent(const Graph& graph, Index v) {
 }
 
 Changes unchanged(const Graph& graph) {
-  return {
-      std::vector<bool>(graph.vertices(), false), std::vector<bool>(graph.edges(), false), {}, ""};
+  Changes changes;
+  changes.drop_vertex.assign(graph.vertices(), false);
+  changes.drop_edge.assign(graph.edges(), false);
+  return changes;
 }
 
 void write_changed(const Graph& graph, Changes changes, std::string_view comment, Sink& sink) {
@@ -107,27 +161,25 @@ void write_changed(const Graph& graph, Changes changes, std::string_view comment
   edit_fix_lines(graph, changes.drop_vertex, edits);
   std::stable_sort(edits.begin(), edits.end(),
                    [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
-  const std::vector<Span> dropped = dropped_lines(graph, changes);
   Offset at = 0;
-  const auto copy_to = [&](Offset to) {
-    if (to > at) sink.write(text.substr(at, to - at));
+  const auto apply = [&](const Edit& edit) {
+    if (edit.begin > at) sink.write(text.substr(at, edit.begin - at));
+    sink.write(edit.replacement);
+    at = std::max(at, edit.end);
   };
-  auto span = dropped.begin();
-  for (auto edit = edits.begin(); span != dropped.end() || edit != edits.end();) {
-    if (edit != edits.end() && (span == dropped.end() || edit->begin <= span->begin)) {
-      copy_to(edit->begin);
-      sink.write(edit->replacement);
-      at = std::max(at, edit->end);
-      ++edit;
-    } else {
-      copy_to(span->begin);
-      at = std::max(at, span->end);
-      ++span;
-    }
+  LineEdits lines(graph, changes);
+  auto edit = edits.begin();
+  while (const Edit* line = lines.next()) {
+    for (; edit != edits.end() && edit->begin <= line->begin; ++edit) apply(*edit);
+    apply(*line);
   }
-  copy_to(static_cast<Offset>(text.size()));
-  if (changes.append.empty()) return;
+  for (; edit != edits.end(); ++edit) apply(*edit);
+  sink.write(text.substr(at));
+  const bool late = std::find(changes.late_edge.begin(), changes.late_edge.end(), true) !=
+                    changes.late_edge.end();
+  if (!late && changes.append.empty()) return;
   if (needs_newline(text)) sink.write("\n");
+  write_late_edges(graph, changes, sink);
   sink.write(changes.append);
 }
 

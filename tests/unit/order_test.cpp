@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "formats/formats.h"
+#include "lib/elim/node_elimination.h"
 #include "lib/elim/score.h"
 #include "lib/graph/error.h"
 
@@ -45,6 +46,28 @@ bool is_permutation_of(const Order& order, Index n) {
   Order all(n);
   for (Index j = 0; j < n; ++j) all[j] = j;
   return sorted == all;
+}
+
+// EC by the definition: the neighbours that literal elimination meets.
+sg::Wide literal_ec(const Pattern& pattern, const Order& order) {
+  sg::Wide sum = 0;
+  for (const sg::EliminationStep& step : sg::node_elimination(pattern, order)) {
+    std::int64_t total = pattern.dim[step.variable];
+    for (const Index j : step.neighbours) total += pattern.dim[j];
+    sum += sg::elimination_cost(pattern.dim[step.variable], total);
+  }
+  return sum;
+}
+
+// Two patterns that nothing joins, as one: the variables of `a` come first.
+Pattern side_by_side(const Pattern& a, const Pattern& b) {
+  Pattern both = a;
+  both.dim.insert(both.dim.end(), b.dim.begin(), b.dim.end());
+  for (Index r = 0; r < b.rows(); ++r) {
+    for (const Index j : b.row(r)) both.row_variables.push_back(a.variables() + j);
+    both.row_begin.push_back(static_cast<Index>(both.row_variables.size()));
+  }
+  return both;
 }
 
 std::vector<Index> some_variables(std::mt19937& random, Index n) {
@@ -87,6 +110,62 @@ TEST_CASE("variables constrained to the end stand at the end", "[order]") {
       std::sort(tail.begin(), tail.end());
       REQUIRE(tail == options.last);
     }
+  }
+}
+
+TEST_CASE("EC of every ordering is that of literal node elimination", "[order]") {
+  std::mt19937 random(4);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Pattern pattern = odd_pattern(random, static_cast<Index>(random() % 50));
+    sg::OrderOptions options;
+    if (trial % 2 == 0) options.last = some_variables(random, pattern.variables());
+    for (const sg::Ordering& ordering : sg::orderings()) {
+      INFO(ordering.name << " on trial " << trial);
+      const Order order = sg::elimination_order(ordering, pattern, options);
+      REQUIRE(sg::to_string(sg::elimination_complexity(pattern, order)) ==
+              sg::to_string(literal_ec(pattern, order)));
+    }
+  }
+}
+
+TEST_CASE("methods that order part by part give each part its own order", "[order]") {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Pattern a = odd_pattern(random, static_cast<Index>(random() % 30));
+    const Pattern b = odd_pattern(random, static_cast<Index>(random() % 30));
+    for (const char* name : {"metis", "scotch", "mmd", "rcm", "king", "sloan"}) {
+      INFO(name << " on trial " << trial);
+      Order expected = sg::elimination_order(name, a);
+      for (const Index j : sg::elimination_order(name, b)) expected.push_back(a.variables() + j);
+      REQUIRE(sg::elimination_order(name, side_by_side(a, b)) == expected);
+    }
+  }
+}
+
+// A path has an order without fill, and all minimum-degree and profile methods find one.
+TEST_CASE("paths are ordered without fill", "[order]") {
+  for (const Index n : {2, 3, 10, 500}) {
+    Pattern path{std::vector<int>(n, 3), {0}, {}};
+    for (Index j = 0; j + 1 < n; ++j) {
+      path.row_variables.insert(path.row_variables.end(), {j + 1, j});
+      path.row_begin.push_back(static_cast<Index>(path.row_variables.size()));
+    }
+    for (const char* name : {"id", "colamd", "amd", "wmf", "mmd", "rcm", "king", "sloan"}) {
+      INFO(name << ", " << n << " variables");
+      const Order order = sg::elimination_order(name, path);
+      CHECK(sg::to_string(sg::elimination_complexity(path, order)) ==
+            std::to_string(3 * 36 * (n - 1) + 27));
+    }
+  }
+}
+
+TEST_CASE("a variable out of range is no last variable", "[order]") {
+  std::mt19937 random(6);
+  const Pattern pattern = odd_pattern(random, 5);
+  sg::OrderOptions options;
+  options.last = {5};
+  for (const sg::Ordering& ordering : sg::orderings()) {
+    CHECK_THROWS_AS(sg::elimination_order(ordering, pattern, options), std::out_of_range);
   }
 }
 

@@ -2,11 +2,14 @@ load ../common
 
 setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 
+# Every method, as --help lists them.
+methods() { sg-order --help | tr -d '\n' | tr -s ' ' | sed 's/.*one of \(.*\) --apply.*/\1/'; }
+
 # Lines that are neither VERTEX nor data lines nor comments of sg-order, each with its number less the comments on top.
 others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
 
 @test "VERTEX lines stand in elimination order, all else stays" {
-  for method in file id landmarks-first colamd amd metis scotch mmd rcm king sloan random; do
+  for method in $(methods | tr -d ,); do
     sg-order -m $method walk.g2o >out.g2o
     sg-order -m $method --print walk.g2o >order
     { cat order; echo 0; } | cmp - <(awk '/^VERTEX/ {print $2}' out.g2o)
@@ -64,7 +67,7 @@ others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
 }
 
 @test "--last is kept by every method" {
-  for method in file id landmarks-first colamd amd metis scotch mmd rcm king sloan random; do
+  for method in $(methods | tr -d ,); do
     sg-order -m $method --last 1,100 --print walk.g2o >order
     [ "$(tail -n 2 order | sort -n | xargs)" = "1 100" ]
     [ "$(wc -l <order)" -eq 6 ]
@@ -88,9 +91,8 @@ others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
 }
 
 @test "wrong calls" {
-  local names
-  names=$(sg-order --help | tr -d '\n' | tr -s ' ' | sed 's/.*one of \(.*\) --apply.*/\1/')
-  fails 2 "sg-order: no ordering is called 'colmad'; there are $names (see sg-order --help)" sg-order -m colmad walk.g2o
+  [[ "$(methods)" == *colamd,*sloan* ]]
+  fails 2 "sg-order: no ordering is called 'colmad'; there are $(methods) (see sg-order --help)" sg-order -m colmad walk.g2o
   fails 2 "sg-order: --last: vertex 17 is not in the graph (see sg-order --help)" sg-order --last 17 walk.g2o
   fails 2 "sg-order: --last: vertex 0 is fixed (see sg-order --help)" sg-order --last 4,0 walk.g2o
   fails 2 "sg-order: graph and order cannot both come from standard input (see sg-order --help)" sg-order --apply -

@@ -1,0 +1,93 @@
+#include "cmd/common/prune_options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/graph/tokens.h"
+
+namespace sg {
+namespace {
+
+std::string counted(std::ptrdiff_t count, std::size_t of, const char* things) {
+  return std::to_string(count) + " of " + std::to_string(of) + " " + things;
+}
+
+}  // namespace
+
+void add_candidates(Command& command, std::string& name) {
+  command.app
+      .add_option("--candidates", name,
+                  "What may go: observations, loops or both;\n"
+                  "observations if there are landmarks, else loops")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"observations", "loops", "both"}).description(""));
+}
+
+Candidates candidates_named(const std::string& name, const Graph& graph) {
+  if (name == "observations") return Candidates::observations;
+  if (name == "loops") return Candidates::loops;
+  return name == "both" ? Candidates::both : natural_candidates(graph);
+}
+
+CLI::Validator at_least_one() {
+  return {[](std::string& text) {
+            const auto value = parse<Index>(text);
+            return value && *value >= 1 ? std::string()
+                                        : "wants a whole number of 1 or more, not '" + text + "'";
+          },
+          ""};
+}
+
+void add_min_obs(Command& command, Index& min_obs) {
+  command.app.add_option("--min-obs", min_obs, "Landmarks left with fewer observations leave (1)")
+      ->type_name("M")
+      ->check(at_least_one());
+}
+
+void add_amount(Command& command, Amount& amount) {
+  const std::vector<CLI::Option*> ways{
+      command.app.add_option("-r,--rate", amount.rate, "How many candidates stay: one in R,")
+          ->type_name("R")
+          ->check(at_least_one()),
+      command.app.add_option("-p,--part", amount.fraction, "or this part of them (0 to 1),")
+          ->type_name("FRACTION")
+          ->check(CLI::Range(0.0, 1.0).description("")),
+      command.app.add_option("-k,--keep", amount.count, "or so many,")
+          ->type_name("COUNT")
+          ->check(CLI::NonNegativeNumber.description("")),
+      command.app.add_option("--like", amount.like, "or as many as FILE has")->type_name("FILE")};
+  command.app.parse_complete_callback([ways] {
+    const auto given =
+        std::count_if(ways.begin(), ways.end(), [](const auto* way) { return way->count() > 0; });
+    if (given != 1)
+      throw CLI::ValidationError("how many candidates stay? Give one of -r, -p, -k, --like");
+  });
+}
+
+std::size_t kept_count(const Amount& amount, std::size_t candidates, Candidates kind,
+                       const ReadOptions& options) {
+  if (amount.rate) return (candidates + *amount.rate / 2) / *amount.rate;
+  if (amount.fraction)
+    return static_cast<std::size_t>(
+        std::llround(*amount.fraction * static_cast<double>(candidates)));
+  if (amount.count) return std::min(candidates, static_cast<std::size_t>(*amount.count));
+  const Graph like = read_graph(amount.like, options);
+  return std::min(candidates, candidate_edges(like, pose_index(like), kind).size());
+}
+
+Changes pruned(const Command& command, const Graph& graph, const PoseIndex& poses, Index min_obs,
+               Removal removal) {
+  sweep_landmarks(graph, poses, min_obs, removal);
+  if (command.verbose) {
+    const auto vertices = std::count(removal.vertex.begin(), removal.vertex.end(), true);
+    const auto edges = std::count(removal.edge.begin(), removal.edge.end(), true);
+    warn(command, "removed " + counted(vertices, removal.vertex.size(), "vertices") + ", " +
+                      counted(edges, removal.edge.size(), "edges"));
+  }
+  Changes changes;
+  changes.drop_vertex = std::move(removal.vertex);
+  changes.drop_edge = std::move(removal.edge);
+  return changes;
+}
+
+}  // namespace sg

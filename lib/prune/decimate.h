@@ -1,0 +1,27 @@
+// Decimation (Frey, Steiner, How, algorithm 1): of every landmark j, the observations from poses i
+// with i mod r = k_j stay. Landmarks with the same offset k_j share poses, landmarks of different
+// offsets do not, which parts the graph into r loosely joined pieces.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lib/graph/graph.h"
+#include "lib/graph/replay.h"
+
+namespace sg {
+
+enum class DecimationOffset : std::uint8_t {
+  first,    // the pose index of the landmark's first observation, mod r: that one stays
+  aligned,  // 0 for all
+  random,   // drawn per landmark
+};
+
+// Which of the candidates stay, side by side with them. The observing pose of an edge is its last;
+// its landmark is the first that it names. Of a loop closure, the earlier pose is the landmark.
+// rate >= 1; `seed` matters to random offsets alone. O(candidates + vertices).
+std::vector<bool> decimate(const Graph& graph, const PoseIndex& poses,
+                           const std::vector<Index>& candidates, Index rate,
+                           DecimationOffset offset, std::uint64_t seed);
+
+}  // namespace sg

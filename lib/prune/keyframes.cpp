@@ -1,0 +1,285 @@
+#include "lib/prune/keyframes.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "lib/graph/error.h"
+
+namespace sg {
+namespace {
+
+Index pose_count(const PoseIndex& poses) {
+  return static_cast<Index>(poses.pose.size());
+}
+
+SE3 estimate(const Graph& graph, Index v) {
+  std::vector<double> n;
+  vertex_numbers(graph, v, n);
+  return {Eigen::Quaterniond(n.at(6), n.at(3), n.at(4), n.at(5)).normalized(), {n[0], n[1], n[2]}};
+}
+
+// Throws unless all edges of step k can be composed, and fused if there are several.
+void require_composable(const Graph& graph, const Odometry& odometry, Index k) {
+  for (Index e : odometry[k]) {
+    const EdgeType& type = graph.type_of_edge(e);
+    if (!is_motion(type) || type.tag != graph.type_of_edge(odometry[k][0]).tag) {
+      throw error_at(graph, graph.edge_line[e],
+                     "cannot compose odometry of type " + type.tag + " across dropped poses");
+    }
+    if (graph.edges_only && odometry[k].size() > 1 && type.tag == "EDGE_SE3:EXPMAP") {
+      throw error_at(graph, graph.edge_line[e],
+                     "cannot fuse several " + type.tag + " of one step without pose estimates");
+    }
+  }
+}
+
+// The motion of step k, from pose k - 1 to pose k. Several edges are fused.
+Motion step_motion(const Graph& graph, const PoseIndex& poses, const Odometry& odometry, Index k) {
+  std::vector<Motion> motions;
+  for (Index e : odometry[k]) {
+    const Motion forward_or_back = motion(graph, e).value();
+    const bool back = graph.edge(e)[0] == poses.pose[k];
+    motions.push_back(back ? inverse(forward_or_back) : forward_or_back);
+  }
+  const bool needs_estimate =
+      motions.size() > 1 && std::holds_alternative<ExpmapMotion>(motions[0]);
+  return fuse(motions, needs_estimate ? estimate(graph, poses.pose[k - 1]) : SE3{});
+}
+
+// Nearest keyframe of every pose within its segment, the earlier of two equally near.
+std::vector<Index> nearest_keyframes(const Odometry& odometry, const std::vector<bool>& keyframe) {
+  const auto n = static_cast<Index>(keyframe.size());
+  std::vector<Index> nearest(n);
+  for (Index k = 0, last = 0; k < n; ++k) {
+    if (keyframe[k]) last = k;
+    nearest[k] = last;
+  }
+  for (Index k = n - 2, next = n - 1; k >= 0; --k) {
+    if (odometry[k + 1].empty()) next = -1;  // the segment ends with k
+    if (keyframe[k + 1] && !odometry[k + 1].empty()) next = k + 1;
+    if (next >= 0 && keyframe[next] && next - k < k - nearest[k]) nearest[k] = next;
+  }
+  return nearest;
+}
+
+bool is_keyframe(const Keyframing& kf, Index k) {
+  return kf.nearest[k] == k;
+}
+
+bool touches_dropped(const Keyframing& kf, Index e) {
+  const auto ends = kf.graph.edge(e);
+  return std::any_of(ends.begin(), ends.end(), [&](Index v) { return kf.removal.vertex[v]; });
+}
+
+// The odometry from keyframe a to keyframe b becomes one edge, in the place of its last line: there
+// both poses have been defined, since their own odometry stands no later.
+void compose_odometry(Keyframing& kf, Index a, Index b) {
+  Index carrier = -1;
+  for (Index k = a + 1; k <= b; ++k) {
+    require_composable(kf.graph, kf.odometry, k);
+    for (Index e : kf.odometry[k]) {
+      kf.removal.edge[e] = true;
+      carrier = std::max(carrier, e);
+    }
+  }
+  kf.removal.edge[carrier] = false;
+  kf.rewritten[carrier] = true;
+}
+
+void settle_odometry(Keyframing& kf) {
+  const Index n = pose_count(kf.poses);
+  Index last = 0;  // keyframe
+  for (Index k = 1; k < n; ++k) {
+    if (!is_keyframe(kf, k)) continue;
+    if (!kf.odometry[k].empty() && k > last + 1) compose_odometry(kf, last, k);
+    last = k;
+  }
+}
+
+// A loop closure between other poses than keyframes; false where its ends fall together.
+bool move_loop(Keyframing& kf, Index e) {
+  const auto ends = kf.graph.edge(e);
+  if (kf.nearest[kf.poses.index[ends[0]]] == kf.nearest[kf.poses.index[ends[1]]]) {
+    ++kf.collapsed_loops;
+    return false;
+  }
+  const EdgeType& type = kf.graph.type_of_edge(e);
+  if (!is_motion(type)) {
+    throw error_at(kf.graph, kf.graph.edge_line[e],
+                   "cannot move a loop closure of type " + type.tag +
+                       " to keyframes (--loops drop leaves them out)");
+  }
+  kf.rewritten[e] = true;
+  return true;
+}
+
+// Edges of three and more vertices that measure a motion cannot be composed, nor simply dropped.
+void refuse_motion_of_many(const Keyframing& kf, Index e) {
+  Index first = -1;
+  for (Index v : kf.graph.edge(e)) {
+    if (kf.poses.index[v] < 0) continue;
+    if (first >= 0 && v != first) {
+      throw error_at(kf.graph, kf.graph.edge_line[e],
+                     "cannot compose " + kf.graph.type_of_edge(e).tag + " across dropped poses");
+    }
+    first = v;
+  }
+}
+
+// Everything but the odometry that is composed.
+void settle_edges(Keyframing& kf, bool move_loops) {
+  for (Index e = 0; e < kf.graph.edges(); ++e) {
+    if (kf.rewritten[e] || kf.removal.edge[e] || !touches_dropped(kf, e)) continue;
+    const EdgeRole role = edge_role(kf.graph, kf.poses, e);
+    if (role == EdgeRole::other) refuse_motion_of_many(kf, e);
+    if (role == EdgeRole::loop_closure && move_loops && move_loop(kf, e)) continue;
+    kf.removal.edge[e] = true;
+    kf.dropped_priors += kf.graph.edge(e).size() == 1;
+  }
+}
+
+bool moves_a_loop(const Keyframing& kf) {
+  for (Index e = 0; e < kf.graph.edges(); ++e) {
+    if (kf.rewritten[e] && edge_role(kf.graph, kf.poses, e) == EdgeRole::loop_closure) return true;
+  }
+  return false;
+}
+
+// Ways to keyframes lead along odometry that is not composed otherwise, too: behind the last
+// keyframe of a segment.
+void require_ways(const Keyframing& kf) {
+  for (Index k = 1; k < pose_count(kf.poses); ++k) {
+    if (!is_keyframe(kf, k)) require_composable(kf.graph, kf.odometry, k);
+  }
+}
+
+// Motions from keyframes to every milestone_spacing-th pose before and behind them, so that long
+// ways are not walked for each loop closure again.
+void set_milestones(Keyframing& kf) {
+  const Index n = pose_count(kf.poses);
+  const auto set = [&](Index k) {
+    const Index way = std::abs(k - kf.nearest[k]);
+    if (way > 0 && way % milestone_spacing == 0)
+      kf.milestones.emplace(k, travelled(kf, kf.nearest[k], k));
+  };
+  for (Index k = 0; k < n; ++k) {
+    if (k > kf.nearest[k]) set(k);
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    if (k < kf.nearest[k]) set(k);
+  }
+}
+
+// A line that names a vertex before the file defines it would not be read by g2o.
+void find_late_lines(Keyframing& kf) {
+  if (kf.graph.edges_only) return;
+  for (Index e = 0; e < kf.graph.edges(); ++e) {
+    if (!kf.rewritten[e]) continue;
+    for (Index v : kf.graph.edge(e)) {
+      const Index keyframe = kf.poses.pose[kf.nearest[kf.poses.index[v]]];
+      if (kf.graph.vertex_line[keyframe] > kf.graph.edge_line[e]) kf.late[e] = true;
+    }
+  }
+}
+
+// The neighbouring keyframes of the step that odometry edge e takes.
+std::pair<Index, Index> around(const Keyframing& kf, Index e) {
+  const auto ends = kf.graph.edge(e);
+  Index b = std::max(kf.poses.index[ends[0]], kf.poses.index[ends[1]]);
+  Index a = b - 1;
+  while (!is_keyframe(kf, a)) --a;
+  while (!is_keyframe(kf, b)) ++b;
+  return {a, b};
+}
+
+}  // namespace
+
+Odometry odometry_steps(const Graph& graph, const PoseIndex& poses) {
+  std::vector<Index> step(graph.edges(), -1);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (edge_role(graph, poses, e) != EdgeRole::odometry) continue;
+    const auto ends = graph.edge(e);
+    step[e] = std::max(poses.index[ends[0]], poses.index[ends[1]]);
+  }
+  return by_step(step, pose_count(poses));
+}
+
+std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,
+                                   const Odometry& odometry, const KeyframeRule& rule) {
+  const Index n = pose_count(poses);
+  std::vector<bool> keyframe(n);
+  double travelled = 0, turned = 0;
+  for (Index k = 0, first = 0; k < n; ++k) {
+    const bool start = odometry[k].empty();
+    if (start) first = k;
+    if (!start && rule.rate == 0) {
+      require_composable(graph, odometry, k);
+      const Motion step = step_motion(graph, poses, odometry, k);
+      travelled += distance(step);
+      turned += angle(step);
+    }
+    const bool due = rule.rate > 0 ? (k - first) % rule.rate == 0
+                                   : (rule.distance > 0 && travelled >= rule.distance) ||
+                                         (rule.angle > 0 && turned >= rule.angle);
+    keyframe[k] = start || due || graph.fixed[poses.pose[k]];
+    if (keyframe[k]) travelled = turned = 0;
+  }
+  return keyframe;
+}
+
+Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Odometry& odometry,
+                      const std::vector<bool>& keyframe, bool move_loops) {
+  const std::vector<bool> no_edge(graph.edges(), false);
+  Keyframing kf{graph,
+                poses,
+                odometry,
+                nearest_keyframes(odometry, keyframe),
+                no_edge,
+                no_edge,
+                nothing_removed(graph)};
+  for (Index k = 0; k < pose_count(poses); ++k) {
+    kf.removal.vertex[poses.pose[k]] = !keyframe[k];
+  }
+  settle_odometry(kf);
+  settle_edges(kf, move_loops);
+  if (moves_a_loop(kf)) {
+    require_ways(kf);
+    set_milestones(kf);
+  }
+  find_late_lines(kf);
+  return kf;
+}
+
+Motion travelled(const Keyframing& kf, Index from, Index to) {
+  const Index direction = from < to ? 1 : -1;
+  const auto step = [&](Index k) {
+    if (direction > 0) return step_motion(kf.graph, kf.poses, kf.odometry, k + 1);
+    return inverse(step_motion(kf.graph, kf.poses, kf.odometry, k));
+  };
+  const auto milestone = [&](Index k) {
+    return kf.nearest[k] == from ? kf.milestones.find(k) : kf.milestones.end();
+  };
+  Index at = to;
+  while (at != from && milestone(at) == kf.milestones.end()) at -= direction;
+  std::optional<Motion> way;
+  if (at != from) way = milestone(at)->second;
+  for (; at != to; at += direction) way = way ? compose(*way, step(at)) : step(at);
+  return way.value();
+}
+
+std::string rewritten_line(const Keyframing& kf, Index e) {
+  const Graph& graph = kf.graph;
+  const auto id = [&](Index k) { return graph.id[kf.poses.pose[k]]; };
+  if (edge_role(graph, kf.poses, e) == EdgeRole::odometry) {
+    const auto [a, b] = around(kf, e);
+    return edge_text(travelled(kf, a, b), id(a), id(b));
+  }
+  const Index p = kf.poses.index[graph.edge(e)[0]], q = kf.poses.index[graph.edge(e)[1]];
+  const Index a = kf.nearest[p], b = kf.nearest[q];
+  Motion z = motion(graph, e).value();
+  if (p != a) z = compose(travelled(kf, a, p), z);
+  if (q != b) z = compose(z, inverse(travelled(kf, b, q)));
+  return edge_text(z, id(a), id(b));
+}
+
+}  // namespace sg

@@ -1,0 +1,215 @@
+#include "lib/prune/motion.h"
+
+#include <Eigen/QR>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "lib/geometry/information.h"
+#include "lib/graph/error.h"
+
+namespace sg {
+namespace {
+
+using Eigen::Matrix3d;
+
+// The rows of an upper triangle as a symmetric matrix.
+template <int N>
+Eigen::Matrix<double, N, N> symmetric(const double* upper) {
+  Eigen::Matrix<double, N, N> matrix;
+  for (int i = 0; i < N; ++i) {
+    for (int j = i; j < N; ++j) matrix(i, j) = matrix(j, i) = *upper++;
+  }
+  return matrix;
+}
+
+SE3 se3(const std::vector<double>& n) {
+  return {Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized(), {n[0], n[1], n[2]}};
+}
+
+// z^-1 x as the error vector of the type, and its derivative by a small motion d of x: x -> x d.
+struct Residual2 {
+  Eigen::Vector3d error;
+  Matrix3d jacobian;
+};
+Residual2 residual(const SE2& z, const SE2& x) {
+  const SE2 e = between(z, x);
+  Matrix3d jacobian = Matrix3d::Identity();
+  jacobian.topLeftCorner<2, 2>() = rotation(e.theta);
+  return {{e.x, e.y, e.theta}, jacobian};
+}
+
+struct Residual3 {
+  Vector6d error;
+  Matrix6d jacobian;
+};
+Residual3 residual(const SE3& z, const SE3& x) {
+  SE3 e = between(z, x);
+  if (e.q.w() < 0) e.q.coeffs() *= -1;
+  Residual3 result{Vector6d::Zero(), Matrix6d::Zero()};
+  result.error << e.t, e.q.vec();
+  result.jacobian.topLeftCorner<3, 3>() = e.q.toRotationMatrix();
+  result.jacobian.bottomRightCorner<3, 3>() = e.q.w() * Matrix3d::Identity() + skew(e.q.vec());
+  return result;
+}
+
+// The step of Gauss-Newton in (translation, quaternion's vector part) as a motion.
+SE2 small_motion(const Eigen::Vector3d& d) {
+  return {d[0], d[1], wrap(d[2])};
+}
+SE3 small_motion(const Vector6d& d) {
+  const double square = d.tail<3>().squaredNorm();
+  Eigen::Quaterniond q(std::sqrt(std::max(0.0, 1 - square)), d[3], d[4], d[5]);
+  return {q.normalized(), d.head<3>()};
+}
+
+constexpr int fusion_steps = 10;
+constexpr double fusion_tolerance = 1e-12;
+
+// Gauss-Newton from the first measurement on. Directions without information keep its value.
+template <class Uncertain>
+Uncertain fuse_local(const std::vector<Motion>& motions) {
+  Uncertain result = std::get<Uncertain>(motions[0]);
+  for (int step = 0; step < fusion_steps; ++step) {
+    auto gradient = residual(result.mean, result.mean).error;
+    result.information.setZero();
+    for (const Motion& m : motions) {
+      const auto& z = std::get<Uncertain>(m);
+      const auto [error, jacobian] = residual(z.mean, result.mean);
+      gradient += jacobian.transpose() * z.information * error;
+      result.information += jacobian.transpose() * z.information * jacobian;
+    }
+    const auto change =
+        (-result.information.completeOrthogonalDecomposition().solve(gradient)).eval();
+    result.mean = compose(result.mean, small_motion(change));
+    if (change.norm() < fusion_tolerance) break;
+  }
+  return result;
+}
+
+// Blocks in the other order: (rotation, translation) from (translation, rotation) and back.
+Matrix6d swapped(const Matrix6d& m) {
+  Matrix6d result;
+  result << m.bottomRightCorner<3, 3>(), m.bottomLeftCorner<3, 3>(), m.topRightCorner<3, 3>(),
+      m.topLeftCorner<3, 3>();
+  return result;
+}
+
+// The error e of C = z^-1 is, in the world frame, log(X1 x z^-1 X1^-1); the unknown moves by x ->
+// X1^-1 exp(d) X1 x.
+ExpmapMotion fuse_world(const std::vector<Motion>& motions, const SE3& first_pose) {
+  ExpmapMotion result = std::get<ExpmapMotion>(motions[0]);
+  const Matrix6d to_world = adjoint(first_pose), from_world = adjoint(inverse(first_pose));
+  for (int step = 0; step < fusion_steps; ++step) {
+    Vector6d gradient = Vector6d::Zero();
+    Matrix6d information = Matrix6d::Zero();
+    for (const Motion& m : motions) {
+      const auto& z = std::get<ExpmapMotion>(m);
+      const Vector6d error = to_world * log(compose(result.mean, inverse(z.mean)));
+      const Matrix6d jacobian = inverse_left_jacobian(error), weight = swapped(z.information);
+      gradient += jacobian.transpose() * weight * error;
+      information += jacobian.transpose() * weight * jacobian;
+    }
+    const Vector6d change = -information.completeOrthogonalDecomposition().solve(gradient);
+    result.mean = compose(exp(Vector6d(from_world * change)), result.mean);
+    result.information = swapped(information);
+    if (change.norm() < fusion_tolerance) break;
+  }
+  return result;
+}
+
+void append(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text += ' ';
+  text.append(digits.data(), end);
+}
+
+void append(std::string& text, const SE3& x) {
+  for (double value : {x.t.x(), x.t.y(), x.t.z(), x.q.x(), x.q.y(), x.q.z(), x.q.w()}) {
+    append(text, value);
+  }
+}
+
+template <class Matrix>
+void append_upper(std::string& text, const Matrix& m) {
+  for (int i = 0; i < m.rows(); ++i) {
+    for (int j = i; j < m.cols(); ++j) append(text, m(i, j));
+  }
+}
+
+}  // namespace
+
+bool is_motion(const EdgeType& type) {
+  return type.tag == "EDGE_SE2" || type.tag == "EDGE_SE3:QUAT" || type.tag == "EDGE_SE3:EXPMAP";
+}
+
+std::optional<Motion> motion(const Graph& graph, Index e) {
+  const std::string& tag = graph.type_of_edge(e).tag;
+  if (!is_motion(graph.type_of_edge(e))) return std::nullopt;
+  thread_local std::vector<double> n;
+  edge_numbers(graph, e, n);
+  const std::size_t needed = tag == "EDGE_SE2" ? 9 : 28;
+  if (n.size() < needed) throw error_at(graph, graph.edge_line[e], tag + " lacks numbers");
+  if (tag == "EDGE_SE2") return UncertainSE2{{n[0], n[1], n[2]}, symmetric<3>(n.data() + 3)};
+  if (tag == "EDGE_SE3:QUAT") return UncertainSE3{se3(n), symmetric<6>(n.data() + 7)};
+  return ExpmapMotion{se3(n), symmetric<6>(n.data() + 7)};
+}
+
+Motion compose(const Motion& first, const Motion& second) {
+  if (const auto* a = std::get_if<UncertainSE2>(&first))
+    return compose(*a, std::get<UncertainSE2>(second));
+  if (const auto* a = std::get_if<UncertainSE3>(&first))
+    return compose(*a, std::get<UncertainSE3>(second));
+  const auto& a = std::get<ExpmapMotion>(first);
+  const auto& b = std::get<ExpmapMotion>(second);
+  return ExpmapMotion{compose(a.mean, b.mean), parallel_sum<6>(a.information, b.information)};
+}
+
+Motion inverse(const Motion& motion) {
+  if (const auto* a = std::get_if<UncertainSE2>(&motion)) return inverse(*a);
+  if (const auto* a = std::get_if<UncertainSE3>(&motion)) return inverse(*a);
+  const auto& a = std::get<ExpmapMotion>(motion);
+  return ExpmapMotion{inverse(a.mean), a.information};
+}
+
+Motion fuse(const std::vector<Motion>& motions, const SE3& first_pose) {
+  if (motions.size() == 1) return motions[0];
+  if (std::holds_alternative<UncertainSE2>(motions[0])) return fuse_local<UncertainSE2>(motions);
+  if (std::holds_alternative<UncertainSE3>(motions[0])) return fuse_local<UncertainSE3>(motions);
+  return fuse_world(motions, first_pose);
+}
+
+double distance(const Motion& motion) {
+  if (const auto* a = std::get_if<UncertainSE2>(&motion)) return std::hypot(a->mean.x, a->mean.y);
+  if (const auto* a = std::get_if<UncertainSE3>(&motion)) return a->mean.t.norm();
+  return std::get<ExpmapMotion>(motion).mean.t.norm();
+}
+
+double angle(const Motion& motion) {
+  if (const auto* a = std::get_if<UncertainSE2>(&motion)) return std::abs(wrap(a->mean.theta));
+  if (const auto* a = std::get_if<UncertainSE3>(&motion)) return log_so3(a->mean.q).norm();
+  return log_so3(std::get<ExpmapMotion>(motion).mean.q).norm();
+}
+
+std::string edge_text(const Motion& motion, Id first, Id second) {
+  const std::string ids = ' ' + std::to_string(first) + ' ' + std::to_string(second);
+  std::string text;
+  if (const auto* a = std::get_if<UncertainSE2>(&motion)) {
+    text = "EDGE_SE2" + ids;
+    for (double value : {a->mean.x, a->mean.y, a->mean.theta}) append(text, value);
+    append_upper(text, a->information);
+  } else if (const auto* b = std::get_if<UncertainSE3>(&motion)) {
+    text = "EDGE_SE3:QUAT" + ids;
+    append(text, b->mean);
+    append_upper(text, b->information);
+  } else {
+    const auto& c = std::get<ExpmapMotion>(motion);
+    text = "EDGE_SE3:EXPMAP" + ids;
+    append(text, c.mean);
+    append_upper(text, c.information);
+  }
+  return text;
+}
+
+}  // namespace sg

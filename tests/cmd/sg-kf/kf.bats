@@ -1,0 +1,82 @@
+load ../common
+
+setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
+
+@test "rate 1 is the input, byte for byte" {
+  sg-kf -r 1 --no-trace-comment walk.g2o | cmp - walk.g2o
+  printf 'EDGE_SE2 0 1 1.0 0 0 1 0 0 1 0 1\r\n\r\n  EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1' >crlf.g2o
+  sg-kf -r 1 --no-trace-comment crlf.g2o | cmp - crlf.g2o
+}
+
+@test "the call is left behind as a comment" {
+  sg-kf -r 2 walk.g2o | sed -n 2p | grep -qx '# sg-kf -r 2 walk.g2o'
+}
+
+@test "a composed line keeps the line end of the one it replaces" {
+  printf 'EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\r\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\r\n' >crlf.g2o
+  [ "$(sg-kf -r 2 --no-trace-comment crlf.g2o | tr -d '\n' | tail -c 1)" = $'\r' ]
+}
+
+@test "every second pose stays, odometry is composed, observations of the others go" {
+  sg-kf -r 2 walk.g2o >out.g2o
+  [ "$(awk '/^VERTEX_SE2/ {print $2}' out.g2o | paste -sd' ')" = "0 2 4" ]
+  [ "$(awk '/^EDGE_SE2 / {print $2, $3, $4}' out.g2o | paste -sd,)" = "0 2 2,2 4 2,4 0 -4" ]
+  [ "$(awk '/_XY/ && /EDGE/ {print $2, $3}' out.g2o | paste -sd,)" = "0 100,2 100,2 101,4 101" ]
+}
+
+@test "landmarks with too few observations leave" {
+  sg-kf -r 4 --min-obs 2 walk.g2o >out.g2o
+  ! grep -q _XY out.g2o
+}
+
+@test "priors of dropped poses go, and a message says so" {
+  { cat walk.g2o; echo 'EDGE_PRIOR_SE2 1 1 0 0 1 0 0 1 0 1'; } >prior.g2o
+  [ "$(sg-kf -r 2 prior.g2o 2>&1 >out.g2o)" = "sg-kf: left out 1 unary edges (priors) of dropped poses" ]
+  ! grep -q PRIOR out.g2o
+  [ -z "$(sg-kf -q -r 2 prior.g2o 2>&1 >/dev/null)" ]
+  sg-kf -r 2 walk.g2o | grep -qx 'FIX 0'
+}
+
+@test "loop closures move to keyframes, or go" {
+  { cat walk.g2o; echo 'EDGE_SE2 0 3 3 0 0 1 0 0 1 0 1'; } >loop.g2o
+  [ "$(sg-kf -r 4 loop.g2o | awk '/^EDGE_SE2 / {print $2, $3, $4}' | paste -sd,)" = "0 4 4,4 0 -4,0 4 4" ]
+  [ "$(sg-kf -r 4 --loops drop loop.g2o | awk '/^EDGE_SE2 / {print $2, $3, $4}' | paste -sd,)" = "0 4 4,4 0 -4" ]
+}
+
+@test "keyframes by distance and angle" {
+  [ "$(sg-kf --dist 2 walk.g2o | awk '/^VERTEX_SE2/ {print $2}' | paste -sd' ')" = "0 2 4" ]
+  [ "$(sg-kf --angle 10 walk.g2o | awk '/^VERTEX_SE2/ {print $2}' | paste -sd' ')" = "0" ]
+  [ "$(sg-kf --dist 3 --angle 10 walk.g2o | awk '/^VERTEX_SE2/ {print $2}' | paste -sd' ')" = "0 3" ]
+}
+
+@test "what cannot be composed is an error" {
+  printf 'VERTEX_CAM %s 0 0 0 0 0 0 1 1 1 0 0 0\n' 0 1 2 >cam.g2o
+  for k in 0 1; do echo "EDGE_CAM $k $((k + 1)) 0 0 0 0 0 0 1 $(seq -s' ' 21 | sed 's/[0-9]*/1/g')"; done >>cam.g2o
+  fails 1 "sg-kf: cam.g2o:4: cannot compose odometry of type EDGE_CAM across dropped poses" sg-kf -r 2 cam.g2o
+  sg-kf -r 1 --no-trace-comment cam.g2o | cmp - cam.g2o
+}
+
+@test "wrong calls" {
+  fails 2 "sg-kf: --rate: wants a whole number of 1 or more, not '0' (see sg-kf --help)" sg-kf -r 0 walk.g2o
+  fails 2 "sg-kf: --rate: wants a whole number of 1 or more, not '-1' (see sg-kf --help)" sg-kf -r -1 walk.g2o
+  fails 2 "sg-kf: how many keyframes? Give -r, or --dist and --angle or one of them (see sg-kf --help)" sg-kf walk.g2o
+  fails 2 "sg-kf: how many keyframes? Give -r, or --dist and --angle or one of them (see sg-kf --help)" \
+    sg-kf -r 2 --dist 3 walk.g2o
+}
+
+@test "the output file appears whole or not at all" {
+  fails 3 "sg-kf: /dev/full: cannot write: No space left on device" sg-kf -r 2 -o /dev/full walk.g2o
+  echo before >out.g2o
+  run sg-kf -r 2 -o out.g2o missing.g2o
+  [ "$status" -eq 1 ] && [ "$(cat out.g2o)" = before ]
+}
+
+@test "public graphs: counts of poses, and g2o text that reads back" {
+  need_data
+  for graph in intel CSAIL city10000 sphere2500 smallGrid3D; do
+    poses=$(sg-kf -r 1 "$SGTOOLS_DATA/$graph.g2o" | sg-order -m id --print | wc -l)
+    kept=$(sg-kf -r 4 "$SGTOOLS_DATA/$graph.g2o" | sg-order -m id --print | wc -l)
+    [ "$kept" -ge $((poses / 4)) ]
+    [ "$kept" -le $((poses / 4 + poses / 10 + 1)) ]
+  done
+}

@@ -1,0 +1,47 @@
+load ../common
+
+setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
+
+kept() { sg-rand "$@" walk.g2o | grep -c EDGE_SE2_XY || true; }
+
+@test "nothing to remove: the input, byte for byte" {
+  sg-rand -r 1 --no-trace-comment walk.g2o | cmp - walk.g2o
+  sg-rand -p 1 --no-trace-comment walk.g2o | cmp - walk.g2o
+  sg-rand -k 99 --no-trace-comment walk.g2o | cmp - walk.g2o
+  sg-rand --like walk.g2o --no-trace-comment walk.g2o | cmp - walk.g2o
+}
+
+@test "so many stay" {
+  [ "$(kept -r 2)" = 3 ]
+  [ "$(kept -r 4)" = 2 ]  # 1.5, rounded
+  [ "$(kept -p 0.5)" = 3 ]
+  [ "$(kept -k 5)" = 5 ]
+  [ "$(kept -k 0)" = 0 ]
+  sg-dec -r 2 -o dec.g2o walk.g2o
+  [ "$(kept --like dec.g2o)" = 4 ]
+}
+
+@test "the seed decides, and nothing else" {
+  cmp <(sg-rand -r 2 --seed 5 walk.g2o) <(sg-rand -r 2 --seed 5 walk.g2o)
+  for seed in $(seq 40); do sg-rand -k 1 --seed $seed walk.g2o | grep EDGE_SE2_XY; done | sort -u >all
+  [ "$(wc -l <all)" -eq 6 ]
+}
+
+@test "odometry stays, whatever goes" {
+  [ "$(sg-rand -k 0 --candidates both walk.g2o | grep -c '^EDGE_SE2 ')" = 4 ]
+}
+
+@test "reordering does not change the choice" {
+  cmp <(sg-order -m random walk.g2o | sg-rand -r 2 | grep ^EDGE) <(sg-rand -r 2 walk.g2o | grep ^EDGE)
+}
+
+@test "wrong calls" {
+  fails 2 "sg-rand: --rate: wants a whole number of 1 or more, not '0' (see sg-rand --help)" sg-rand -r 0 walk.g2o
+  fails 2 "sg-rand: --rate: wants a whole number of 1 or more, not '-1' (see sg-rand --help)" sg-rand -r -1 walk.g2o
+  fails 2 "sg-rand: how many candidates stay? Give one of -r, -p, -k, --like (see sg-rand --help)" sg-rand walk.g2o
+  fails 2 "sg-rand: how many candidates stay? Give one of -r, -p, -k, --like (see sg-rand --help)" \
+    sg-rand -r 2 -k 3 walk.g2o
+  run sg-rand -p 1.5 walk.g2o
+  [ "$status" -eq 2 ]
+  fails 1 "sg-rand: missing.g2o: No such file or directory" sg-rand --like missing.g2o walk.g2o
+}

@@ -1,0 +1,608 @@
+// The policies against their definitions, on random graphs written as text; keyframing against a
+// least-squares solution of the odometry that it composes.
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "formats/formats.h"
+#include "formats/write.h"
+#include "lib/graph/tokens.h"
+#include "lib/prune/candidates.h"
+#include "lib/prune/decimate.h"
+#include "lib/prune/keyframes.h"
+#include "lib/prune/sample.h"
+
+using namespace sg;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+using Random = std::mt19937;
+
+int dice(Random& random, int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(random);
+}
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+Graph parse(const std::string& text) {
+  return read_graph_text(text_of(text), "test.g2o");
+}
+
+struct StringSink final : Sink {
+  void write(std::string_view bytes) override { text += bytes; }
+  std::string text;
+};
+
+enum class Kind { se2, quat, expmap };
+constexpr std::array kinds{Kind::se2, Kind::quat, Kind::expmap};
+
+std::string vertex_tag(Kind kind) {
+  return kind == Kind::se2    ? "VERTEX_SE2"
+         : kind == Kind::quat ? "VERTEX_SE3:QUAT"
+                              : "VERTEX_SE3:EXPMAP";
+}
+std::string edge_tag(Kind kind) {
+  return kind == Kind::se2 ? "EDGE_SE2" : kind == Kind::quat ? "EDGE_SE3:QUAT" : "EDGE_SE3:EXPMAP";
+}
+int dof(Kind kind) {
+  return kind == Kind::se2 ? 3 : 6;
+}
+
+// Everything below lives in SE(3); the plane is the part of it with these coordinates.
+VectorXd coordinates(Kind kind, const SE3& x) {
+  if (kind == Kind::se2) return Eigen::Vector3d(x.t.x(), x.t.y(), log_so3(x.q).z());
+  return (VectorXd(7) << x.t, x.q.coeffs()).finished();
+}
+SE3 moved(Kind kind, const SE3& x, const VectorXd& d) {
+  Vector6d v = Vector6d::Zero();
+  if (kind == Kind::se2) {
+    v << d[0], d[1], 0, 0, 0, d[2];
+  } else {
+    v = d;
+  }
+  return compose(x, exp(v));
+}
+SE3 random_motion(Random& random, Kind kind, double size) {
+  return moved(kind, SE3{},
+               VectorXd::NullaryExpr(dof(kind), [&] { return uniform(random, -size, size); }));
+}
+
+std::string numbers(const VectorXd& values) {
+  std::ostringstream out;
+  out.precision(17);
+  for (double value : values) out << ' ' << value;
+  return out.str();
+}
+
+MatrixXd random_information(Random& random, int n) {
+  const MatrixXd a = MatrixXd::NullaryExpr(n, n, [&] { return uniform(random, -1, 1); });
+  return 10 * (a * a.transpose() + MatrixXd::Identity(n, n));
+}
+
+std::string motion_edge(Random& random, Kind kind, Id a, Id b, const SE3& z) {
+  const MatrixXd w = random_information(random, dof(kind));
+  std::vector<double> upper;
+  for (int i = 0; i < w.rows(); ++i) {
+    for (int j = i; j < w.cols(); ++j) upper.push_back(w(i, j));
+  }
+  return edge_tag(kind) + " " + std::to_string(a) + " " + std::to_string(b) +
+         numbers(coordinates(kind, z)) +
+         numbers(Eigen::Map<VectorXd>(upper.data(), static_cast<Index>(upper.size()))) + "\n";
+}
+
+// A world of poses (ids 0, 2, 4, ...) and its measurements, exact up to `noise`.
+struct World {
+  Kind kind;
+  std::vector<SE3> pose;
+  std::string vertices, edges;
+};
+
+void add_motion(Random& random, World& world, int i, int j, double noise) {
+  if (dice(random, 0, 2) == 0) std::swap(i, j);  // in either direction
+  const SE3 z =
+      compose(between(world.pose[i], world.pose[j]), random_motion(random, world.kind, noise));
+  world.edges += motion_edge(random, world.kind, 2 * i, 2 * j, z);
+}
+
+World random_world(Random& random, Kind kind, int n, double noise) {
+  World world{kind, {}, "", ""};
+  for (int i = 0; i < n; ++i) {
+    world.pose.push_back(i ? compose(world.pose.back(), random_motion(random, kind, 0.5))
+                           : random_motion(random, kind, 1));
+    world.vertices += vertex_tag(kind) + " " + std::to_string(2 * i) +
+                      numbers(coordinates(kind, world.pose[i])) + "\n";
+  }
+  for (int i = 1; i < n; ++i) {
+    if (dice(random, 0, 9) == 0) continue;  // a new segment
+    for (int copies = dice(random, 0, 4) == 0 ? 2 : 1; copies > 0; --copies)
+      add_motion(random, world, i - 1, i, noise);
+  }
+  for (int k = 0; k < n; ++k) {
+    const int i = dice(random, 0, n - 1), j = dice(random, 0, n - 1);
+    if (std::abs(i - j) > 1) add_motion(random, world, i, j, noise);
+  }
+  return world;
+}
+
+// The residual of a line as g2o defines it.
+VectorXd residual(const Motion& motion, const SE3& first, const SE3& second) {
+  if (const auto* z = std::get_if<UncertainSE2>(&motion)) {
+    const SE3 mean{exp_so3({0, 0, z->mean.theta}), {z->mean.x, z->mean.y, 0}};
+    return coordinates(Kind::se2, between(mean, between(first, second)));
+  }
+  if (const auto* z = std::get_if<UncertainSE3>(&motion)) {
+    const SE3 e = between(z->mean, between(first, second));
+    return (VectorXd(6) << e.t, e.q.vec() * (e.q.w() < 0 ? -1 : 1)).finished();
+  }
+  const SE3 c = inverse(std::get<ExpmapMotion>(motion).mean);  // T2^-1 C T1, T world-to-camera
+  const Vector6d e = log(compose(second, compose(c, inverse(first))));
+  return (VectorXd(6) << e.tail<3>(), e.head<3>()).finished();
+}
+
+MatrixXd weight(const Motion& motion) {
+  return std::visit([](const auto& z) { return MatrixXd(z.information); }, motion);
+}
+
+struct Factor {
+  int first, second;  // places in a list of poses
+  Motion motion;
+};
+
+// The Hessian of the factors by all poses, and their gradient; derivatives by central differences.
+std::pair<MatrixXd, VectorXd> linearize(Kind kind, const std::vector<Factor>& factors,
+                                        const std::vector<SE3>& poses) {
+  const int d = dof(kind), n = static_cast<int>(poses.size());
+  MatrixXd hessian = MatrixXd::Zero(d * n, d * n);
+  VectorXd gradient = VectorXd::Zero(d * n);
+  for (const Factor& f : factors) {
+    const auto shifted = [&](int which, int axis, double h) {
+      VectorXd step = VectorXd::Zero(d);
+      step[axis] = h;
+      return residual(f.motion, which == 0 ? moved(kind, poses[f.first], step) : poses[f.first],
+                      which == 1 ? moved(kind, poses[f.second], step) : poses[f.second]);
+    };
+    MatrixXd jacobian = MatrixXd::Zero(d, d * n);
+    for (int which : {0, 1}) {
+      for (int axis = 0; axis < d; ++axis) {
+        jacobian.col(d * (which ? f.second : f.first) + axis) =
+            (shifted(which, axis, 1e-6) - shifted(which, axis, -1e-6)) / 2e-6;
+      }
+    }
+    hessian += jacobian.transpose() * weight(f.motion) * jacobian;
+    gradient += jacobian.transpose() * weight(f.motion) *
+                residual(f.motion, poses[f.first], poses[f.second]);
+  }
+  return {hessian, gradient};
+}
+
+// Solves the factors for all poses but the first, and returns what they know of the last one: its
+// marginal information.
+MatrixXd solve_and_marginalize(Kind kind, const std::vector<Factor>& factors,
+                               std::vector<SE3>& poses) {
+  const int d = dof(kind), n = static_cast<int>(poses.size()) - 1;
+  for (int step = 0; step < 10; ++step) {
+    const auto [hessian, gradient] = linearize(kind, factors, poses);
+    const VectorXd change =
+        hessian.bottomRightCorner(d * n, d * n).ldlt().solve(-gradient.tail(d * n));
+    for (int i = 0; i < n; ++i) poses[i + 1] = moved(kind, poses[i + 1], change.segment(d * i, d));
+  }
+  const MatrixXd hessian = linearize(kind, factors, poses).first.bottomRightCorner(d * n, d * n);
+  return hessian.inverse().bottomRightCorner(d, d).inverse();
+}
+
+struct Pruned {
+  Graph graph;
+  PoseIndex poses;
+  Odometry odometry;
+  std::vector<bool> keyframe;
+};
+Pruned analyzed(const std::string& text, const KeyframeRule& rule) {
+  Pruned p{parse(text), {}, {}, {}};
+  p.poses = pose_index(p.graph);
+  p.odometry = odometry_steps(p.graph, p.poses);
+  p.keyframe = choose_keyframes(p.graph, p.poses, p.odometry, rule);
+  return p;
+}
+
+std::string written(const Graph& graph, const Keyframing& kf) {
+  Changes changes;
+  changes.drop_vertex = kf.removal.vertex;
+  changes.drop_edge = kf.removal.edge;
+  changes.late_edge = kf.late;
+  changes.edge_line = [&](Index e) -> std::optional<std::string> {
+    return kf.rewritten[e] ? std::optional(rewritten_line(kf, e)) : std::nullopt;
+  };
+  StringSink sink;
+  write_changed(graph, std::move(changes), "", sink);
+  return sink.text;
+}
+
+// The factors of the steps from pose index a to pose index b, the poses numbered along the way from
+// `place` on.
+void append_way(const Pruned& p, Index a, Index b, std::vector<Factor>& factors,
+                std::vector<SE3>& poses, const std::vector<SE3>& truth) {
+  for (Index k = a; k != b; k += a < b ? 1 : -1) {
+    const Index next = k + (a < b ? 1 : -1);
+    const int here = static_cast<int>(poses.size()) - 1;
+    for (Index e : p.odometry[std::max(k, next)]) {
+      const bool forward = p.graph.edge(e)[0] == p.poses.pose[k];
+      factors.push_back(
+          {forward ? here : here + 1, forward ? here + 1 : here, motion(p.graph, e).value()});
+    }
+    poses.push_back(truth[next]);
+  }
+}
+
+// A landmark graph in the plane with odd parts: several landmarks an edge, landmarks joined to each
+// other, priors, fixed vertices, ids in no order.
+std::string random_landmark_graph(Random& random) {
+  const int poses = dice(random, 1, 12), landmarks = dice(random, 1, 8);
+  std::vector<std::string> lines;
+  for (int i = 0; i < poses; ++i)
+    lines.push_back("VERTEX_SE2 " + std::to_string(3 * i) + " 0 0 0\n");
+  for (int j = 0; j < landmarks; ++j)
+    lines.push_back("VERTEX_XY " + std::to_string(3 * j + 1) + " 0 0\n");
+  std::shuffle(lines.begin(), lines.end(), random);
+  const auto pose = [&] { return " " + std::to_string(3 * dice(random, 0, poses - 1)); };
+  const auto landmark = [&] {
+    return " " + std::to_string(3 * dice(random, 0, landmarks - 1) + 1);
+  };
+  for (int i = 1; i < poses; ++i) {
+    lines.push_back("EDGE_SE2 " + std::to_string(3 * i - 3) + " " + std::to_string(3 * i) +
+                    " 1 0 0 1 0 0 1 0 1\n");
+  }
+  for (int k = dice(random, 0, 40); k > 0; --k) {
+    const int what = dice(random, 0, 9);
+    if (what < 6) lines.push_back("EDGE_SE2_XY" + pose() + landmark() + " 1 0 1 0 1\n");
+    if (what == 6) {
+      lines.push_back("EDGE_SE2_TWOPOINTSXY" + pose() + landmark() + landmark() +
+                      " 1 1 2 2 1 0 0 0 1 0 0 1 0 1\n");
+    }
+    if (what == 7) lines.push_back("EDGE_POINTXY" + landmark() + landmark() + " 0 0 1 0 1\n");
+    if (what == 8) lines.push_back("EDGE_SE2" + pose() + pose() + " 1 0 0 1 0 0 1 0 1\n");
+    if (what == 9) lines.push_back("EDGE_PRIOR_XY" + landmark() + " 0 0 1 0 1\n");
+  }
+  std::string text;
+  for (const auto& line : lines) text += line;
+  return text;
+}
+
+bool has_pose(const Graph& graph, Index e) {
+  for (Index v : graph.edge(e)) {
+    if (graph.role(v) == Role::pose) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("candidates are observations or loop closures, never odometry", "[prune]") {
+  Random random(1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Graph graph = parse(random_landmark_graph(random));
+    const PoseIndex poses = pose_index(graph);
+    CHECK(natural_candidates(graph) == Candidates::observations);
+    const auto roles = edge_roles(graph, poses);
+    std::vector<Index> observations, loops, both;
+    for (Index e = 0; e < graph.edges(); ++e) {
+      if (roles[e] == EdgeRole::observation) observations.push_back(e);
+      if (roles[e] == EdgeRole::loop_closure) loops.push_back(e);
+      if (roles[e] == EdgeRole::observation || roles[e] == EdgeRole::loop_closure)
+        both.push_back(e);
+    }
+    CHECK(candidate_edges(graph, poses, Candidates::observations) == observations);
+    CHECK(candidate_edges(graph, poses, Candidates::loops) == loops);
+    CHECK(candidate_edges(graph, poses, Candidates::both) == both);
+  }
+}
+
+TEST_CASE("the sweep leaves no landmark with too few observations, and takes no other", "[prune]") {
+  Random random(2);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Graph graph = parse(random_landmark_graph(random));
+    const PoseIndex poses = pose_index(graph);
+    Removal removal = nothing_removed(graph);
+    for (Index e = 0; e < graph.edges(); ++e) {
+      removal.edge[e] = has_pose(graph, e) && graph.edge(e).size() > 1 &&
+                        edge_role(graph, poses, e) != EdgeRole::odometry && dice(random, 0, 1) == 0;
+    }
+    const Index min_obs = dice(random, 1, 4);
+    // The definition: one landmark at a time, counting anew.
+    Removal expected = removal;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (Index v = 0; v < graph.vertices(); ++v) {
+        Index before = 0, after = 0;
+        for (Index e = 0; e < graph.edges(); ++e) {
+          if (!has_pose(graph, e)) continue;
+          for (Index u : graph.edge(e)) {
+            before += u == v;
+            after += u == v && !expected.edge[e];
+          }
+        }
+        if (graph.role(v) != Role::landmark || expected.vertex[v] || before == 0 ||
+            after >= min_obs)
+          continue;
+        changed = expected.vertex[v] = true;
+        for (Index e = 0; e < graph.edges(); ++e) {
+          for (Index u : graph.edge(e)) expected.edge[e] = expected.edge[e] || u == v;
+        }
+      }
+    }
+    sweep_landmarks(graph, poses, min_obs, removal);
+    CHECK(removal.vertex == expected.vertex);
+    CHECK(removal.edge == expected.edge);
+  }
+}
+
+TEST_CASE("decimation is algorithm 1", "[prune]") {
+  Random random(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Graph graph = parse(random_landmark_graph(random));
+    const PoseIndex poses = pose_index(graph);
+    const auto candidates = candidate_edges(graph, poses, Candidates::both);
+    const Index rate = dice(random, 1, 5);
+    std::map<Index, Index> first;  // of every landmark, or earlier pose of a loop closure
+    const auto observed = [&](Index e) {
+      const auto ends = graph.edge(e);
+      if (edge_role(graph, poses, e) == EdgeRole::observation)
+        return graph.role(ends[0]) == Role::landmark ? ends[0] : ends[1];
+      return std::min(ends[0], ends[1]);
+    };
+    const auto observer = [&](Index e) {
+      Index last = -1;
+      for (Index v : graph.edge(e)) last = std::max(last, poses.index[v]);
+      return last;
+    };
+    for (Index e : candidates) {
+      const auto it = first.emplace(observed(e), observer(e)).first;
+      it->second = std::min(it->second, observer(e));
+    }
+    const auto by_first = decimate(graph, poses, candidates, rate, DecimationOffset::first, 0);
+    const auto aligned = decimate(graph, poses, candidates, rate, DecimationOffset::aligned, 0);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const Index e = candidates[i];
+      CHECK(by_first[i] == (observer(e) % rate == first[observed(e)] % rate));
+      CHECK(aligned[i] == (observer(e) % rate == 0));
+    }
+    // Random offsets: the kept observers of one landmark agree mod rate, and so do the seeds.
+    const auto drawn = decimate(graph, poses, candidates, rate, DecimationOffset::random, 5);
+    CHECK(drawn == decimate(graph, poses, candidates, rate, DecimationOffset::random, 5));
+    std::map<Index, std::set<Index>> offsets;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (drawn[i]) offsets[observed(candidates[i])].insert(observer(candidates[i]) % rate);
+    }
+    for (const auto& [landmark, found] : offsets) CHECK(found.size() == 1);
+  }
+}
+
+TEST_CASE("every subset is as likely as another", "[prune]") {
+  std::map<std::vector<bool>, int> seen;
+  constexpr int draws = 20000;
+  for (int seed = 0; seed < draws; ++seed) ++seen[sample(6, 3, seed)];
+  REQUIRE(seen.size() == 20);
+  double chi2 = 0;
+  for (const auto& [subset, count] : seen) {
+    CHECK(std::count(subset.begin(), subset.end(), true) == 3);
+    chi2 += (count - draws / 20.0) * (count - draws / 20.0) / (draws / 20.0);
+  }
+  CHECK(chi2 < 43.8);  // 19 degrees of freedom, one in a thousand
+  CHECK(sample(4, 9, 1) == std::vector<bool>(4, true));
+  CHECK(sample(4, 0, 1) == std::vector<bool>(4, false));
+  CHECK(sample(0, 3, 1).empty());
+}
+
+TEST_CASE("a keyframe every so many poses of a segment", "[prune]") {
+  Random random(4);
+  for (int trial = 0; trial < 60; ++trial) {
+    const World world = random_world(random, kinds[trial % 3], dice(random, 2, 25), 0);
+    const Index rate = dice(random, 1, 6);
+    const Id fixed = 2 * dice(random, 0, static_cast<int>(world.pose.size()) - 1);
+    const Pruned p = analyzed(world.vertices + "FIX " + std::to_string(fixed) + "\n" + world.edges,
+                              {rate, 0, 0});
+    Index first = 0;
+    for (Index k = 0; k < static_cast<Index>(p.poses.pose.size()); ++k) {
+      bool joined = false;
+      for (Index e = 0; e < p.graph.edges(); ++e) {
+        const auto ends = p.graph.edge(e);
+        joined = joined || (k > 0 && std::minmax(ends[0], ends[1]) == std::minmax(k - 1, k));
+      }
+      if (!joined) first = k;
+      CHECK(p.keyframe[k] == ((k - first) % rate == 0 || k * 2 == fixed));
+    }
+  }
+}
+
+TEST_CASE("keyframes by the distance and the angle travelled", "[prune]") {
+  std::string text = "VERTEX_SE2 0 0 0 0\n";
+  for (int k = 1; k < 10; ++k) {
+    text += "VERTEX_SE2 " + std::to_string(k) + " 0 0 0\nEDGE_SE2 " + std::to_string(k - 1) + " " +
+            std::to_string(k) + (k < 6 ? " 0.5 0 0" : " 0 0 -0.5") + " 1 0 0 1 0 1\n";
+  }
+  using Flags = std::vector<bool>;
+  CHECK(analyzed(text, {0, 1, 0}).keyframe == Flags{1, 0, 1, 0, 1, 0, 0, 0, 0, 0});
+  CHECK(analyzed(text, {0, 0, 1}).keyframe == Flags{1, 0, 0, 0, 0, 0, 0, 1, 0, 1});
+  CHECK(analyzed(text, {0, 1, 1}).keyframe == Flags{1, 0, 1, 0, 1, 0, 0, 1, 0, 1});
+}
+
+TEST_CASE("from exact measurements keyframing makes exact ones", "[prune]") {
+  Random random(5);
+  for (int trial = 0; trial < 90; ++trial) {
+    const World world = random_world(random, kinds[trial % 3], dice(random, 2, 25), 0);
+    const Pruned p = analyzed(world.vertices + world.edges, {dice(random, 2, 6), 0, 0});
+    const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    const Graph pruned = parse(written(p.graph, kf));
+    CHECK(pruned.vertices() == std::count(p.keyframe.begin(), p.keyframe.end(), true));
+    for (Index e = 0; e < pruned.edges(); ++e) {
+      const auto ends = pruned.edge(e);
+      const SE3& a = world.pose[pruned.id[ends[0]] / 2];
+      const SE3& b = world.pose[pruned.id[ends[1]] / 2];
+      CHECK(residual(motion(pruned, e).value(), a, b).norm() < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a composed edge says what the odometry said: mean and information", "[prune]") {
+  Random random(6);
+  int odometry_checked = 0, loops_checked = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const World world = random_world(random, kinds[trial % 3], dice(random, 4, 12), 0.01);
+    const Pruned p = analyzed(world.vertices + world.edges, {dice(random, 2, 5), 0, 0});
+    const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    for (Index e = 0; e < p.graph.edges(); ++e) {
+      if (!kf.rewritten[e]) continue;
+      const auto ends = p.graph.edge(e);
+      const bool loop = edge_role(p.graph, p.poses, e) == EdgeRole::loop_closure;
+      const Graph line = parse(world.vertices + rewritten_line(kf, e));
+      const Index a = line.edge(0)[0], b = line.edge(0)[1];  // pose indices, as vertices
+      std::vector<SE3> poses{world.pose[a]};
+      std::vector<Factor> factors;
+      if (loop) {
+        append_way(p, a, p.poses.index[ends[0]], factors, poses, world.pose);
+        const int here = static_cast<int>(poses.size());
+        factors.push_back({here - 1, here, motion(p.graph, e).value()});
+        poses.push_back(world.pose[p.poses.index[ends[1]]]);
+        append_way(p, p.poses.index[ends[1]], b, factors, poses, world.pose);
+      } else {
+        append_way(p, a, b, factors, poses, world.pose);
+      }
+      const MatrixXd marginal = solve_and_marginalize(world.kind, factors, poses);
+      const std::vector<Factor> composed{{0, 1, motion(line, 0).value()}};
+      const std::vector<SE3> ends_only{poses.front(), poses.back()};
+      const int d = dof(world.kind);
+      const MatrixXd information =
+          linearize(world.kind, composed, ends_only).first.bottomRightCorner(d, d);
+      CHECK(residual(composed[0].motion, ends_only[0], ends_only[1]).norm() < 2e-3);
+      CHECK((information - marginal).norm() < 0.05 * marginal.norm());
+      ++(loop ? loops_checked : odometry_checked);
+    }
+  }
+  CHECK(odometry_checked > 50);
+  CHECK(loops_checked > 50);
+}
+
+TEST_CASE("without noise in parallel odometry the composed information is exact", "[prune]") {
+  Random random(7);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Kind kind = kinds[trial % 3];
+    const World world = random_world(random, kind, 8, 0);
+    const Pruned p = analyzed(world.vertices + world.edges, {4, 0, 0});
+    const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    for (Index e = 0; e < p.graph.edges(); ++e) {
+      if (!kf.rewritten[e] || edge_role(p.graph, p.poses, e) != EdgeRole::odometry) continue;
+      const Graph line = parse(world.vertices + rewritten_line(kf, e));
+      const Index a = line.edge(0)[0], b = line.edge(0)[1];
+      std::vector<SE3> poses{world.pose[a]};
+      std::vector<Factor> factors;
+      append_way(p, a, b, factors, poses, world.pose);
+      const MatrixXd marginal = solve_and_marginalize(kind, factors, poses);
+      const int d = dof(kind);
+      const MatrixXd information =
+          linearize(kind, {{0, 1, motion(line, 0).value()}}, {poses.front(), poses.back()})
+              .first.bottomRightCorner(d, d);
+      CHECK((information - marginal).norm() < 1e-5 * marginal.norm());
+    }
+  }
+}
+
+TEST_CASE("long ways to keyframes are composed from milestones", "[prune]") {
+  Random random(8);
+  World world{Kind::se2, {}, "", ""};
+  for (int i = 0; i < 500; ++i) {
+    world.pose.push_back(i ? compose(world.pose.back(), random_motion(random, Kind::se2, 0.1))
+                           : SE3{});
+    if (i) add_motion(random, world, i - 1, i, 0.01);
+  }
+  for (int k = 0; k < 50; ++k)
+    add_motion(random, world, dice(random, 0, 200), dice(random, 300, 499), 0);
+  const Pruned p = analyzed(world.edges, {300, 0, 0});
+  Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+  CHECK(kf.milestones.size() >= 4);
+  Keyframing plain = kf;
+  plain.milestones.clear();
+  for (Index e = 0; e < p.graph.edges(); ++e) {
+    if (!kf.rewritten[e]) continue;
+    const Graph fast = parse(rewritten_line(kf, e)), slow = parse(rewritten_line(plain, e));
+    const auto a = std::get<UncertainSE2>(*motion(fast, 0));
+    const auto b = std::get<UncertainSE2>(*motion(slow, 0));
+    CHECK((a.information - b.information).norm() < 1e-9 * b.information.norm());
+    CHECK(log(between(a.mean, b.mean)).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("pruning and reordering commute", "[prune]") {
+  Random random(9);
+  for (int trial = 0; trial < 30; ++trial) {
+    const World world = random_world(random, kinds[trial % 3], 20, 0.01);
+    std::vector<std::string> lines;
+    std::istringstream in(world.vertices);
+    for (std::string line; std::getline(in, line);) lines.push_back(line + "\n");
+    std::shuffle(lines.begin(), lines.end(), random);
+    std::string shuffled;
+    for (const auto& line : lines) shuffled += line;
+    std::multiset<std::string> results[2];
+    for (int k : {0, 1}) {
+      const Pruned p = analyzed((k ? shuffled : world.vertices) + world.edges, {3, 0, 0});
+      const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+      std::istringstream out(written(p.graph, kf));
+      for (std::string line; std::getline(out, line);) results[k].insert(line);
+    }
+    CHECK(results[0] == results[1]);
+    for (int k : {0, 1}) {
+      const Graph graph = parse((k ? shuffled : world.vertices) + world.edges);
+      const PoseIndex poses = pose_index(graph);
+      const auto candidates = candidate_edges(graph, poses, Candidates::loops);
+      results[k].clear();
+      for (bool kept : decimate(graph, poses, candidates, 3, DecimationOffset::first, 0))
+        results[k].insert(kept ? "kept" : "gone");
+    }
+    CHECK(results[0] == results[1]);
+  }
+}
+
+TEST_CASE("a moved line that would name a vertex too early goes to the end", "[prune]") {
+  const std::string information = " 1 0 0 1 0 1\n";
+  std::string text = "VERTEX_SE2 0 0 0 0\n";
+  for (int k = 1; k <= 8; ++k) {
+    text += "VERTEX_SE2 " + std::to_string(k) + " " + std::to_string(k) + " 0 0\n";
+    text += "EDGE_SE2 " + std::to_string(k - 1) + " " + std::to_string(k) + " 1 0 0" + information;
+    if (k == 7) text += "EDGE_SE2 0 7 7 0 0" + information;
+  }
+  const Pruned p = analyzed(text, {4, 0, 0});
+  const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+  std::istringstream lines(written(p.graph, kf));
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line);) {
+    std::string_view rest = line;
+    std::string name(next_word(rest));
+    for (int ids = name == "VERTEX_SE2" ? 1 : 2; ids > 0; --ids)
+      name += " " + std::string(next_word(rest));
+    names.push_back(name);
+  }
+  CHECK(names == std::vector<std::string>{"VERTEX_SE2 0", "VERTEX_SE2 4", "EDGE_SE2 0 4",
+                                          "VERTEX_SE2 8", "EDGE_SE2 4 8", "EDGE_SE2 0 8"});
+}
+
+TEST_CASE("what keyframing cannot compose it names", "[prune]") {
+  const std::string two =
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_SE2 2 0 0 0\nPARAMS_SE2OFFSET 0 0 0 0\n";
+  const Pruned p = analyzed(two +
+                                "EDGE_SE2_OFFSET 0 1 0 0 1 0 0 1 0 0 1 0 1\n"
+                                "EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n",
+                            {2, 0, 0});
+  try {
+    keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    FAIL("composed EDGE_SE2_OFFSET");
+  } catch (const Error& error) {
+    CHECK(error.fault == Fault::input);
+    CHECK(message(error) ==
+          "test.g2o:5: cannot compose odometry of type EDGE_SE2_OFFSET across dropped poses");
+  }
+}
