@@ -2,12 +2,11 @@
 #include <algorithm>
 
 #include "cmd/common/command.h"
+#include "cmd/common/method.h"
 #include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
-#include "lib/graph/error.h"
 #include "lib/graph/replay.h"
-#include "lib/order/order.h"
 
 namespace {
 
@@ -23,29 +22,12 @@ struct Options {
   sg::Inputs inputs;
   sg::OutputOptions output;
   sg::TableOptions table;
-  std::vector<std::string> methods;
-  std::uint64_t seed = 0;
+  sg::MethodOptions methods;
   bool trace = false;
   sg::Index every = 1;
   int min_obs = 1;
   bool per_vertex = false;
 };
-
-// An order to score: how the `order` column calls it and how it is computed.
-struct Method {
-  std::string label;
-  const sg::Ordering& ordering;
-};
-
-std::vector<Method> methods_for(const sg::Graph& graph, const Options& options) {
-  if (options.methods.empty()) {
-    if (graph.order_method.empty()) return {{"colamd", sg::find_ordering("colamd")}};
-    return {{"file:" + graph.order_method, sg::find_ordering("file")}};
-  }
-  std::vector<Method> methods;
-  for (const auto& name : options.methods) methods.push_back({name, sg::find_ordering(name)});
-  return methods;
-}
 
 // A graph, or the part of it that has entered by some step.
 struct Subject {
@@ -57,12 +39,6 @@ struct Subject {
   const sg::GraphPattern& variables;
 };
 
-sg::Order order_of(const Subject& subject, const Method& method, const Options& options) {
-  sg::OrderOptions order_options = sg::order_options(subject.graph, subject.variables);
-  order_options.seed = options.seed;
-  return sg::elimination_order(method.ordering, subject.variables.pattern, order_options);
-}
-
 bool wants_any(const sg::Table& table, const Names& names) {
   return std::any_of(names.begin(), names.end(), [&](auto name) { return table.wants(name); });
 }
@@ -73,13 +49,14 @@ std::int64_t total_dim(const sg::Pattern& pattern) {
   return sum;
 }
 
-void score_row(sg::Table& table, const Subject& subject, const Method& method,
+void score_row(sg::Table& table, const Subject& subject, const sg::Method& method,
                const Options& options) {
   const sg::Pattern& pattern = subject.variables.pattern;
   sg::Score score;
   const bool tree = wants_any(table, {"cliques", "ec_bt"});
   if (tree || wants_any(table, {"ec", "rose", "flops", "nnz", "fill", "max_clique", "height"})) {
-    const sg::Symbolic symbolic = sg::symbolic(pattern, order_of(subject, method, options));
+    const sg::Symbolic symbolic = sg::symbolic(
+        pattern, sg::order_by(method, options.methods, subject.graph, subject.variables));
     score = tree ? sg::score(symbolic) : sg::column_score(symbolic);
   }
   const sg::Wide fill = table.wants("fill") ? score.nnz - sg::system_nnz(pattern) : 0;
@@ -89,9 +66,9 @@ void score_row(sg::Table& table, const Subject& subject, const Method& method,
              std::int64_t{score.cliques}, score.ec_bt});
 }
 
-void vertex_rows(sg::Table& table, const Subject& subject, const Method& method,
+void vertex_rows(sg::Table& table, const Subject& subject, const sg::Method& method,
                  const Options& options) {
-  const sg::Order order = order_of(subject, method, options);
+  const sg::Order order = sg::order_by(method, options.methods, subject.graph, subject.variables);
   const sg::Symbolic symbolic = sg::symbolic(subject.variables.pattern, order);
   const double ec = sg::to_double(sg::elimination_complexity(symbolic));
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -126,9 +103,9 @@ void replay_rows(const sg::Graph& graph, const std::string& file, const Options&
 
 void score_file(sg::Table& table, const std::string& path, const Options& options) {
   const sg::Graph graph = sg::read(options.inputs, path);
-  const std::vector<Method> methods = methods_for(graph, options);
+  const std::vector<sg::Method> methods = sg::methods(options.methods, graph);
   const auto rows = [&](const Subject& subject) {
-    for (const Method& method : methods)
+    for (const sg::Method& method : methods)
       (options.per_vertex ? vertex_rows : score_row)(table, subject, method, options);
   };
   if (options.trace) return replay_rows(graph, path, options, rows);
@@ -150,26 +127,22 @@ sg::TableOptions with_default_columns(const Options& options, const Names& names
 
 void add_options(sg::Command& command, Options& options) {
   sg::add_inputs(command, options.inputs);
+  sg::add_methods(command, options.methods);
   auto& app = command.app;
-  app.add_option("-m,--method", options.methods,
-                 "Orderings, as sg-order has them. Default: the file's if sg-order\n"
-                 "left it there, else colamd")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("NAME,...");
-  app.add_option("--seed", options.seed, "Seed of random orderings")->type_name("N");
-  auto* trace = app.add_flag("--trace", options.trace, "A row for every step of the growing graph");
+  auto* trace = app.add_flag("--trace", options.trace, "A row for every step of the growing graph")
+                    ->option_text(" ");
   app.add_option("--every", options.every, "With --trace: every K-th step, and the last")
       ->needs(trace)
       ->check(CLI::PositiveNumber)
-      ->type_name("K");
+      ->option_text("K");
   app.add_option("--min-obs", options.min_obs,
                  "With --trace: a landmark enters with its M-th observation")
       ->needs(trace)
       ->check(CLI::PositiveNumber)
-      ->type_name("M");
+      ->option_text("M");
   app.add_flag("--per-vertex", options.per_vertex, "A row for every variable, in elimination order")
-      ->excludes(trace);
+      ->excludes(trace)
+      ->option_text(" ");
   sg::add_output(command, options.output);
   sg::add_table(command, options.table, score_columns);
 }
@@ -181,7 +154,7 @@ int main(int argc, char** argv) {
   Options options;
   add_options(command, options);
   return sg::run(command, argc, argv, [&] {
-    for (const auto& name : options.methods) sg::find_ordering(name);  // before any reading
+    sg::check(options.methods);
     const Names& names = options.per_vertex ? vertex_columns : score_columns;
     sg::Output output(options.output.path);
     sg::Table table(with_default_columns(options, names), names, output);

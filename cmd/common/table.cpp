@@ -10,6 +10,16 @@
 namespace sg {
 namespace {
 
+std::string joined(const auto& items, std::string_view separator, const auto& text) {
+  std::string all;
+  for (const auto& item : items) all += (all.empty() ? "" : std::string(separator)) + text(item);
+  return all;
+}
+
+std::string text_of_id(std::int64_t id) {
+  return std::to_string(id);
+}
+
 std::string text_of_cell(const Cell& cell) {
   struct Printer {
     std::string operator()(std::monostate) const { return ""; }
@@ -17,6 +27,12 @@ std::string text_of_cell(const Cell& cell) {
     std::string operator()(std::int64_t value) const { return std::to_string(value); }
     std::string operator()(Wide value) const { return to_string(value); }
     std::string operator()(double value) const { return format_number(value); }
+    std::string operator()(const IdList& ids) const { return joined(ids, " ", text_of_id); }
+    std::string operator()(const IdPairs& pairs) const {
+      return joined(pairs, " ", [](const auto& pair) {
+        return text_of_id(pair.first) + "-" + text_of_id(pair.second);
+      });
+    }
   };
   return std::visit(Printer{}, cell);
 }
@@ -24,6 +40,16 @@ std::string text_of_cell(const Cell& cell) {
 // JSON has no infinities; integers of any length are its own numbers.
 std::string json_of_cell(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return nlohmann::json(*text).dump();
+  if (const auto* ids = std::get_if<IdList>(&cell))
+    return "[" + joined(*ids, ", ", text_of_id) + "]";
+  if (const auto* pairs = std::get_if<IdPairs>(&cell)) {
+    return "[" +
+           joined(*pairs, ", ",
+                  [](const auto& pair) {
+                    return "[" + text_of_id(pair.first) + ", " + text_of_id(pair.second) + "]";
+                  }) +
+           "]";
+  }
   const auto* number = std::get_if<double>(&cell);
   const bool missing =
       std::holds_alternative<std::monostate>(cell) || (number && !std::isfinite(*number));
@@ -31,9 +57,23 @@ std::string json_of_cell(const Cell& cell) {
 }
 
 std::string joined(const std::vector<std::string_view>& names) {
-  std::string text;
-  for (const auto name : names) text += (text.empty() ? "" : ",") + std::string(name);
-  return text;
+  return joined(names, ",", [](std::string_view name) { return std::string(name); });
+}
+
+// The names, in lines that fit a terminal beside the options.
+std::string column_help(const std::vector<std::string_view>& names) {
+  constexpr std::size_t width = 50;
+  std::string help = "Columns: ";
+  std::size_t line_end = width;
+  for (const auto name : names) {
+    if (help.size() + name.size() >= line_end) {
+      help += '\n';
+      line_end = help.size() + width;
+    }
+    help += std::string(name) + ",";
+  }
+  help.pop_back();
+  return help;
 }
 
 }  // namespace
@@ -46,7 +86,7 @@ std::string format_number(double value) {
 
 void add_table(Command& command, TableOptions& options,
                const std::vector<std::string_view>& names) {
-  command.app.add_option("-f,--fields", options.columns, "Columns: " + joined(names))
+  command.app.add_option("-f,--fields", options.columns, column_help(names))
       ->delimiter(',')
       ->option_text("NAME,...")
       ->allow_extra_args(false);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,8 +22,11 @@ struct TableOptions {
 void add_table(Command& command, TableOptions& options, const std::vector<std::string_view>& names);
 
 // A number prints so that it reads back the same; a missing value is an empty cell, and null in
-// JSON.
-using Cell = std::variant<std::monostate, std::string, std::int64_t, Wide, double>;
+// JSON. A list is separated by spaces, and an array in JSON; an edge of two ids reads 3-4, or
+// [3, 4].
+using IdList = std::vector<std::int64_t>;
+using IdPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+using Cell = std::variant<std::monostate, std::string, std::int64_t, Wide, double, IdList, IdPairs>;
 
 class Table {
  public:

@@ -30,4 +30,32 @@ BayesTree bayes_tree(const Symbolic& symbolic) {
   return tree;
 }
 
+std::vector<std::vector<Index>> clique_frontals(const BayesTree& tree) {
+  std::vector<std::vector<Index>> result(tree.cliques());
+  for (Index k = 0; k < static_cast<Index>(tree.clique.size()); ++k)
+    result[tree.clique[k]].push_back(k);
+  return result;
+}
+
+std::vector<std::vector<Index>> clique_separators(const OrderedPattern& pattern,
+                                                  const BayesTree& tree) {
+  // What a clique's variables meet beyond the clique: in factors, and through its children.
+  std::vector<std::vector<Index>> result(tree.cliques());
+  const auto add = [&](Index c, std::span<const Index> positions) {
+    for (const Index k : positions) {
+      if (k > tree.top[c]) result[c].push_back(k);
+    }
+  };
+  for (Index r = 0; r < pattern.rows(); ++r) {
+    const auto row = pattern.row(r);
+    add(tree.clique[row.front()], row);
+  }
+  for (Index c = tree.cliques() - 1; c >= 0; --c) {
+    std::sort(result[c].begin(), result[c].end());
+    result[c].erase(std::unique(result[c].begin(), result[c].end()), result[c].end());
+    if (tree.parent[c] >= 0) add(tree.parent[c], result[c]);
+  }
+  return result;
+}
+
 }  // namespace sg

@@ -23,4 +23,11 @@ struct BayesTree {
 };
 BayesTree bayes_tree(const Symbolic& symbolic);
 
+// The positions of every clique's frontal variables, ascending.
+std::vector<std::vector<Index>> clique_frontals(const BayesTree& tree);
+// The positions of every clique's separator, ascending. Unlike the dimensions above they take the
+// space of all cliques together.
+std::vector<std::vector<Index>> clique_separators(const OrderedPattern& pattern,
+                                                  const BayesTree& tree);
+
 }  // namespace sg

@@ -1,0 +1,50 @@
+#include "cmd/common/method.h"
+
+namespace sg {
+namespace {
+
+void add(Command& command, MethodOptions& options, const char* type, int most) {
+  command.app
+      .add_option("-m,--method", options.names,
+                  "Orderings of sg-order(1). Default: the file's own\n"
+                  "if sg-order left one, colamd otherwise")
+      ->option_text(type)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->expected(1, most);
+  command.app.add_option("--seed", options.seed, "Seed of orderings that draw (default: 0)")
+      ->option_text("N");
+}
+
+}  // namespace
+
+void add_methods(Command& command, MethodOptions& options) {
+  add(command, options, "METHOD,...", CLI::detail::expected_max_vector_size);
+}
+
+void add_method(Command& command, MethodOptions& options) {
+  add(command, options, "METHOD", 1);
+}
+
+void check(const MethodOptions& options) {
+  for (const auto& name : options.names) find_ordering(name);
+}
+
+std::vector<Method> methods(const MethodOptions& options, const Graph& graph) {
+  if (options.names.empty()) {
+    if (graph.order_method.empty()) return {{"colamd", &find_ordering("colamd")}};
+    return {{"file:" + graph.order_method, &find_ordering("file")}};
+  }
+  std::vector<Method> chosen;
+  for (const auto& name : options.names) chosen.push_back({name, &find_ordering(name)});
+  return chosen;
+}
+
+Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
+               const GraphPattern& variables) {
+  OrderOptions order_options = sg::order_options(graph, variables);
+  order_options.seed = options.seed;
+  return elimination_order(*method.ordering, variables.pattern, order_options);
+}
+
+}  // namespace sg

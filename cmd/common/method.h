@@ -1,0 +1,32 @@
+// -m METHOD,... and --seed of the commands that eliminate: which order of a graph they look at.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cmd/common/command.h"
+#include "lib/order/order.h"
+
+namespace sg {
+
+struct MethodOptions {
+  std::vector<std::string> names;  // empty: the file's order if sg-order left one, else colamd
+  std::uint64_t seed = 0;
+};
+void add_methods(Command& command, MethodOptions& options);  // -m NAME,...
+void add_method(Command& command, MethodOptions& options);   // -m NAME
+
+// Throws a usage Error for a name that no ordering has: worth knowing before a graph is read.
+void check(const MethodOptions& options);
+
+struct Method {
+  std::string label;  // its name; "file:NAME" where sg-order's comment made the choice
+  const Ordering* ordering;
+};
+std::vector<Method> methods(const MethodOptions& options, const Graph& graph);
+
+// The order of a graph's variables, or of those of a part of the graph.
+Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
+               const GraphPattern& variables);
+
+}  // namespace sg

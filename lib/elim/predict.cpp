@@ -1,0 +1,29 @@
+#include "lib/elim/predict.h"
+
+namespace sg {
+
+Sizes sizes(const Graph& graph) {
+  Sizes sizes;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.fixed[v]) continue;
+    if (graph.role(v) == Role::pose) sizes.poses += graph.dim(v);
+    if (graph.role(v) == Role::landmark) sizes.landmarks += graph.dim(v);
+  }
+  return sizes;
+}
+
+double predict_full(const Sizes& sizes) {
+  return predict_keyframes(sizes, 1);
+}
+
+double predict_keyframes(const Sizes& sizes, double rate) {
+  const double kept = sizes.poses / rate;
+  return (sizes.landmarks + kept) * kept * kept;
+}
+
+double predict_decimation(const Sizes& sizes, double rate) {
+  const double part = sizes.poses / rate;
+  return (sizes.landmarks + 9 * sizes.poses) * part * part;
+}
+
+}  // namespace sg
