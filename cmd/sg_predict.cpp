@@ -1,4 +1,6 @@
 // sg-predict: what pruning at a rate r should cost, by the closed forms of the paper.
+#include <cmath>
+
 #include "cmd/common/command.h"
 #include "cmd/common/table.h"
 #include "lib/elim/predict.h"
@@ -74,8 +76,7 @@ int main(int argc, char** argv) {
   app.add_option("-r,--rate", options.rates, "Rates of pruning, 1 or more (default: 1)")
       ->option_text("R,...")
       ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::Range(1.0, 1e9, "a rate of 1 or more"));
+      ->allow_extra_args(false);
   auto* poses = app.add_option("--poses", options.poses, "Number of poses, instead of a graph")
                     ->option_text("N")
                     ->check(CLI::PositiveNumber)
@@ -99,6 +100,9 @@ int main(int argc, char** argv) {
   sg::add_table(command, options.table, columns);
   return sg::run(command, argc, argv, [&] {
     if (options.rates.empty()) options.rates = {1};
+    for (const double r : options.rates) {
+      if (!(r >= 1) || std::isinf(r)) throw sg::usage_error("-r wants a rate of 1 or more");
+    }
     sg::Output output(options.output.path);
     print_rows(options, {poses->count() > 0, ec->count() > 0}, output);
     output.commit();

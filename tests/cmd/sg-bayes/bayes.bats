@@ -1,4 +1,5 @@
 load ../common
+bats_require_minimum_version 1.5.0
 
 setup() { cd "$TESTDATA"; }
 

@@ -1,4 +1,5 @@
 load ../common
+bats_require_minimum_version 1.5.0
 
 setup() { cd "$TESTDATA"; }
 
@@ -25,7 +26,7 @@ setup() { cd "$TESTDATA"; }
 
 # The landmarks-first EC of the worst case is at most the closed form while landmarks do not outnumber poses by far.
 @test "the closed form bounds the worst case" {
-  for size in "2 3" "5 5" "10 20" "20 40" "50 60" "60 300"; do
+  for size in "5 5" "10 20" "20 40" "50 60" "60 300"; do
     set -- $size
     awk -v n=$1 -v l=$2 'BEGIN {
       for (i = 0; i < n; i++) print "VERTEX_SE3:QUAT", i, 0, 0, 0, 0, 0, 0, 1
@@ -41,7 +42,7 @@ setup() { cd "$TESTDATA"; }
 }
 
 @test "wrong calls" {
-  for rate in 0 -1 0.5 nan x; do run -2 sg-predict --poses 3 "-r$rate"; done
+  for rate in 0 -1 0.5 nan inf x; do run -2 sg-predict --poses 3 "-r$rate"; done
   run -2 sg-predict --poses 0
   run -2 sg-predict --landmarks 3 walk.g2o
   run -2 sg-predict --poses 3 walk.g2o
