@@ -145,7 +145,9 @@ void add_filter_output(Command& command, OutputOptions& output) {
 
 void add_filter_output(CLI::App& app, OutputOptions& output) {
   add_output(app, output);
-  app.add_flag("!--no-trace-comment", output.trace_comment, "Leave no comment of this call");
+  app.add_flag_callback(
+      "--no-trace-comment", [&output] { output.trace_comment = false; },
+      "Leave no comment of this call");
 }
 
 void add_output(Command& command, OutputOptions& output) {

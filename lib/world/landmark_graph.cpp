@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "lib/graph/error.h"
 
 namespace sg {
 namespace {
@@ -269,6 +272,13 @@ bool sees(const Optics& optics, Sensor sensor, const Vector3d& point) {
   const double ahead = camera(sensor) ? p.x() : std::hypot(p.x(), p.y());
   const double across = std::atan2(p.y(), p.x()), up = std::atan2(p.z(), ahead);
   return std::max(std::abs(across), std::abs(up)) <= optics.view / 2 * degree;
+}
+
+void end_observations(LandmarkGraph& graph) {
+  if (graph.seen.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
+    throw computation_error("more than 2^31 observations");
+  }
+  graph.seen_begin.push_back(static_cast<Index>(graph.seen.size()));
 }
 
 void keep_triangulated(LandmarkGraph& graph, const Triangulation& wanted) {

@@ -65,6 +65,10 @@ struct LandmarkGraph {
   std::uint64_t seed = 0;
 };
 
+// Closes the observations of one more pose. Throws a computation Error when they are too many for an
+// Index.
+void end_observations(LandmarkGraph& graph);
+
 // What makes a landmark worth having: a direction alone, as mono and bearing measure it, determines
 // no point, and directions that hardly differ let Gauss-Newton diverge.
 struct Triangulation {

@@ -8,19 +8,18 @@ void write_edges(const PoseGraph<Pose>& graph, Copy copy, Odometry<Pose> odometr
   Random random = random_stream(graph.seed, Stream::measurements);
   auto loop = graph.loops.begin();
   for (Index k = 1; k < graph.poses; ++k) {
-    edge_line(out, k - 1, k, measured_motion(odometry, k), graph.odometry_noise);
+    edge_line(out, k - 1, k, measured_motion(odometry, k), graph.noise);
     for (; loop != graph.loops.end() && loop->to == k; ++loop) {
       const Pose z = between(graph.truth(loop->from), graph.truth(k));
       edge_line(out, loop->from, k,
-                copy == Copy::exact ? rounded(z) : disturbed(z, graph.loop_noise, random),
-                graph.loop_noise);
+                copy == Copy::exact ? rounded(z) : disturbed(z, graph.noise, random), graph.noise);
     }
   }
 }
 
 template <class Pose>
 void write(const PoseGraph<Pose>& graph, Copy copy, Out& out) {
-  const auto motions = odometry(graph.truth, graph.odometry_noise, copy, graph.seed);
+  const auto motions = odometry(graph.truth, graph.noise, copy, graph.seed);
   for_each_estimate(graph.poses, motions, graph.guess,
                     [&](Index k, const Pose& pose) { vertex_line(out, k, pose); });
   write_edges(graph, copy, motions, out);

@@ -19,8 +19,7 @@ struct PoseGraph {
   Index poses;
   std::function<Pose(Index)> truth;  // of pose 0, 1, ...
   std::vector<Loop> loops;           // by ascending `to`
-  PoseNoise odometry_noise;
-  PoseNoise loop_noise;
+  PoseNoise noise;                   // of odometry and loop closures
   Guess guess;
   std::uint64_t seed;
 };

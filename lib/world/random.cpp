@@ -23,6 +23,10 @@ double normal(Random& random, double sigma) {
   return boost::random::normal_distribution<double>(0, sigma)(random);
 }
 
+int below(Random& random, int end) {
+  return static_cast<int>(uniform(random, 0, end));
+}
+
 bool chance(Random& random, double probability) {
   return uniform(random, 0, 1) < probability;
 }

@@ -19,6 +19,7 @@ Random random_stream(std::uint64_t seed, Stream stream);
 
 double uniform(Random& random, double from, double to);  // in [from, to)
 double normal(Random& random, double sigma);             // of mean 0
+int below(Random& random, int end);                      // in 0 .. end-1
 bool chance(Random& random, double probability);
 
 }  // namespace sg

@@ -75,7 +75,7 @@ void look(const Sine& world, LandmarkGraph& graph) {
       point << act(inverse(pose), landmark.head<2>()), landmark.z();
       if (sees(world.optics, world.sensor, point)) graph.seen.push_back(l);
     }
-    graph.seen_begin.push_back(static_cast<Index>(graph.seen.size()));
+    end_observations(graph);
   }
 }
 

@@ -1,0 +1,39 @@
+#include "lib/world/worst.h"
+
+#include <algorithm>
+
+namespace sg {
+namespace {
+
+std::vector<Eigen::Vector3d> landmarks_before(double length, const Worst& world) {
+  Random random = random_stream(world.seed, Stream::structure);
+  std::vector<Eigen::Vector3d> landmarks(world.landmarks);
+  for (auto& l : landmarks) {
+    l.x() = rounded(uniform(random, length, 2 * length));
+    l.y() = rounded(uniform(random, -length / 4, length / 4));
+    l.z() = rounded(uniform(random, -length / 4, length / 4));
+  }
+  return landmarks;
+}
+
+}  // namespace
+
+LandmarkGraph worst(const Worst& world) {
+  LandmarkGraph graph;
+  graph.sensor = world.sensor;
+  graph.optics = world.optics;
+  graph.odometry_noise = world.odometry_noise;
+  graph.guess_noise = world.guess_noise;
+  graph.guess = world.guess;
+  graph.seed = world.seed;
+  const double line = world.step * (world.poses - 1);
+  graph.landmarks = landmarks_before(std::max(10.0, line), world);
+  for (Index k = 0; k < world.poses; ++k) {
+    graph.poses.push_back(rounded(SE2{0, world.step * k - line / 2, 0}));
+    for (Index l = 0; l < world.landmarks; ++l) graph.seen.push_back(l);
+    end_observations(graph);
+  }
+  return graph;
+}
+
+}  // namespace sg

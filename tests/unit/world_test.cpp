@@ -1,0 +1,437 @@
+// The generators against independent arithmetic: 4x4 matrices and the error definitions of g2o's manual, written out
+// once more. An exact graph has no residuals; of a noisy one the residuals at the truth are what its information
+// matrices claim.
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "formats/formats.h"
+#include "lib/world/city.h"
+#include "lib/world/grid3d.h"
+#include "lib/world/manhattan.h"
+#include "lib/world/sine.h"
+#include "lib/world/sphere.h"
+#include "lib/world/torus.h"
+#include "lib/world/worst.h"
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using sg::Copy;
+using sg::Graph;
+using sg::Index;
+
+template <class World>
+std::string text_of_world(const World& world, Copy copy) {
+  std::string text;
+  sg::Out out{[&](std::string_view piece) { text += piece; }};
+  write_graph(world, copy, out);
+  flush(out);
+  return text;
+}
+
+Graph read(std::string text) {
+  return sg::read_graph_text(sg::text_of(std::move(text)), "world");
+}
+
+MatrixXd planar_pose(double x, double y, double theta) {
+  MatrixXd T = MatrixXd::Identity(3, 3);
+  T << std::cos(theta), -std::sin(theta), x, std::sin(theta), std::cos(theta), y, 0, 0, 1;
+  return T;
+}
+
+MatrixXd spatial_pose(const double* v) {
+  MatrixXd T = MatrixXd::Identity(4, 4);
+  const double x = v[3], y = v[4], z = v[5], w = v[6];
+  REQUIRE(x * x + y * y + z * z + w * w == Approx(1).epsilon(1e-8));
+  T.topLeftCorner(3, 3) << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),
+      2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x), 2 * (x * z - w * y),
+      2 * (y * z + w * x), w * w - x * x - y * y + z * z;
+  T.topRightCorner(3, 1) << v[0], v[1], v[2];
+  return T;
+}
+
+// The rotation vector of a rotation close to none; accurate to third order.
+Vector3d small_rotation(const MatrixXd& T) {
+  return Vector3d(T(2, 1) - T(1, 2), T(0, 2) - T(2, 0), T(1, 0) - T(0, 1)) / 2;
+}
+
+MatrixXd pose_matrix(const std::vector<double>& v) {
+  return v.size() == 3 ? planar_pose(v[0], v[1], v[2]) : spatial_pose(v.data());
+}
+
+struct Camera {
+  double fx, fy, cx, cy;
+  MatrixXd offset;  // the camera in the frame of the pose
+};
+
+Camera camera_of(const Graph& graph) {
+  std::vector<double> p;
+  REQUIRE(graph.params.size() == 1);
+  param_numbers(graph, graph.params[0], p);
+  if (p.size() == 4) return {p[0], p[0], p[1], p[2], MatrixXd::Identity(4, 4)};
+  if (p.size() == 7) return {0, 0, 0, 0, spatial_pose(p.data())};
+  REQUIRE(p.size() == 11);
+  return {p[7], p[8], p[9], p[10], spatial_pose(p.data())};
+}
+
+// The error of a measurement, in the order in which its information matrix has it.
+VectorXd error_of(const std::string& tag, const std::vector<double>& a,
+                  const std::vector<double>& b, const std::vector<double>& z,
+                  const Camera& camera) {
+  const auto homogeneous = [](const std::vector<double>& p) {
+    VectorXd h(p.size() + 1);
+    for (std::size_t i = 0; i < p.size(); ++i) h[i] = p[i];
+    h[p.size()] = 1;
+    return h;
+  };
+  if (tag == "EDGE_SE2") {
+    const MatrixXd d = (pose_matrix(a) * planar_pose(z[0], z[1], z[2])).inverse() * pose_matrix(b);
+    return Vector3d(d(0, 2), d(1, 2), std::atan2(d(1, 0), d(0, 0)));
+  }
+  if (tag == "EDGE_SE3:QUAT" || tag == "EDGE_SE3:EXPMAP") {
+    const MatrixXd A = pose_matrix(a), B = pose_matrix(b), Z = spatial_pose(z.data());
+    VectorXd e(6);
+    if (tag == "EDGE_SE3:QUAT") {
+      const MatrixXd d = Z.inverse() * A.inverse() * B;
+      e << d(0, 3), d(1, 3), d(2, 3), small_rotation(d) / 2;
+    } else {  // world to world: B Z^-1 A^-1 of camera poses A, B; its logarithm, to second order
+      const MatrixXd d = B * Z.inverse() * A.inverse();
+      const Vector3d w = small_rotation(d), t = d.topRightCorner(3, 1);
+      e << w, t - w.cross(t) / 2;
+    }
+    return e;
+  }
+  if (tag == "EDGE_PROJECT_XYZ2UV:EXPMAP") {  // the landmark comes first
+    const VectorXd p = pose_matrix(b).inverse() * homogeneous(a);
+    REQUIRE(p[2] > 0);
+    return Eigen::Vector2d(z[0] - camera.fx * p[0] / p[2] - camera.cx,
+                           z[1] - camera.fy * p[1] / p[2] - camera.cy);
+  }
+  const MatrixXd sensor = a.size() == 3 ? pose_matrix(a) : MatrixXd(pose_matrix(a) * camera.offset);
+  const VectorXd p = sensor.inverse() * homogeneous(b);
+  if (tag == "EDGE_SE2_XY") return Eigen::Vector2d(p[0] - z[0], p[1] - z[1]);
+  if (tag == "EDGE_SE3_TRACKXYZ") return Vector3d(p[0] - z[0], p[1] - z[1], p[2] - z[2]);
+  if (tag == "EDGE_BEARING_SE2_XY") {
+    const double angle = std::atan2(p[1], p[0]) - z[0];
+    return VectorXd::Constant(1, std::remainder(angle, 2 * std::acos(-1.0)));
+  }
+  REQUIRE(tag == "EDGE_PROJECT_DISPARITY");
+  return Vector3d(camera.fx * p[0] / p[2] + camera.cx - z[0],
+                  camera.fy * p[1] / p[2] + camera.cy - z[1], 1 / p[2] - z[2]);
+}
+
+MatrixXd information_of(const std::vector<double>& z, int dim) {
+  MatrixXd W(dim, dim);
+  auto at = z.end() - dim * (dim + 1) / 2;
+  for (int i = 0; i < dim; ++i) {
+    for (int j = i; j < dim; ++j) W(i, j) = W(j, i) = *at++;
+  }
+  return W;
+}
+
+struct ChiSquare {
+  double sum = 0;
+  int dof = 0;
+};
+
+// The residuals of `measured` at the estimates of `truth`, by tag.
+std::map<std::string, ChiSquare> chi_squares(const Graph& truth, const Graph& measured) {
+  Camera camera;
+  if (!truth.params.empty()) camera = camera_of(truth);
+  std::map<std::string, ChiSquare> result;
+  std::vector<double> a, b, z;
+  for (Index e = 0; e < measured.edges(); ++e) {
+    const sg::EdgeType& type = measured.type_of_edge(e);
+    vertex_numbers(truth, measured.edge(e)[0], a);
+    vertex_numbers(truth, measured.edge(e)[1], b);
+    edge_numbers(measured, e, z);
+    const VectorXd error = error_of(type.tag, a, b, z, camera);
+    const MatrixXd W = information_of(z, type.dim);
+    REQUIRE(Eigen::LLT<MatrixXd>(W).info() == Eigen::Success);
+    result[type.tag].sum += error.dot(W * error);
+    result[type.tag].dof += type.dim;
+  }
+  return result;
+}
+
+template <class World>
+void check_noise(const World& world) {
+  const Graph truth = read(text_of_world(world, Copy::exact));
+  const Graph noisy = read(text_of_world(world, Copy::noisy));
+  REQUIRE(truth.id == noisy.id);
+  REQUIRE(truth.edge_vertices == noisy.edge_vertices);
+  for (const auto& [tag, exact] : chi_squares(truth, truth)) {
+    INFO(tag);
+    CHECK(exact.sum / exact.dof < 1e-6);
+  }
+  for (const auto& [tag, chi] : chi_squares(truth, noisy)) {
+    INFO(tag << ": " << chi.sum << " of " << chi.dof);
+    CHECK(std::abs(chi.sum - chi.dof) < 5 * std::sqrt(2.0 * chi.dof));
+  }
+}
+
+std::map<std::string, int> count_tags(const Graph& graph) {
+  std::map<std::string, int> count;
+  for (Index v = 0; v < graph.vertices(); ++v) ++count[graph.type_of_vertex(v).tag];
+  for (Index e = 0; e < graph.edges(); ++e) ++count[graph.type_of_edge(e).tag];
+  return count;
+}
+
+// Odometry from every pose to the next is there, once; vertices are 0, 1, ... without a gap.
+void check_spine(const Graph& graph, Index poses) {
+  std::vector<int> odometry(poses);
+  for (Index v = 0; v < graph.vertices(); ++v) REQUIRE(graph.id[v] == v);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const auto ends = graph.edge(e);
+    REQUIRE(ends.size() == 2);
+    if (graph.role(ends[0]) == sg::Role::pose && ends[1] == ends[0] + 1) ++odometry[ends[1]];
+  }
+  for (Index k = 1; k < poses; ++k) REQUIRE(odometry[k] == 1);
+}
+
+constexpr sg::Sensor sensors[] = {sg::Sensor::mono, sg::Sensor::xyz, sg::Sensor::disparity,
+                                  sg::Sensor::xy, sg::Sensor::bearing};
+
+}  // namespace
+
+TEST_CASE("the noise of sine is what its information claims", "[world]") {
+  for (const sg::Sensor sensor : sensors) {
+    INFO("sensor " << static_cast<int>(sensor));
+    sg::Sine world;
+    world.poses = 150;
+    world.sensor = sensor;
+    check_noise(sg::sine(world));
+  }
+}
+
+TEST_CASE("the noise of worst is what its information claims", "[world]") {
+  for (const sg::Sensor sensor : sensors) {
+    sg::Worst world;
+    world.poses = 40;
+    world.sensor = sensor;
+    check_noise(sg::worst(world));
+  }
+}
+
+TEST_CASE("the noise of the other worlds is what their information claims", "[world]") {
+  check_noise(sg::manhattan({.poses = 1000}));
+  check_noise(sg::city({.poses = 1000}));
+  check_noise(sg::city({.poses = 1000, .sensor = sg::Sensor::bearing}));
+  check_noise(sg::sphere({.poses = 400}));
+  check_noise(sg::torus({.poses = 500}));
+  check_noise(sg::grid3d({.poses = 343}));
+  check_noise(sg::grid3d({.poses = 343, .walk = sg::GridWalk::random}));
+}
+
+TEST_CASE("sine lies in the regime of the paper", "[world]") {
+  const sg::LandmarkGraph world = sg::sine({});
+  const Graph graph = read(text_of_world(world, Copy::noisy));
+  check_spine(graph, 400);
+  auto count = count_tags(graph);
+  CHECK(count["VERTEX_SE3:EXPMAP"] == 400);
+  CHECK(count["EDGE_SE3:EXPMAP"] == 399);
+  const int landmarks = count["VERTEX_TRACKXYZ"];
+  const double observations = count["EDGE_PROJECT_XYZ2UV:EXPMAP"];
+  CHECK(landmarks == Approx(440).epsilon(0.08));
+  CHECK(observations / 400 == Approx(50).epsilon(0.1));
+  std::vector<int> seen(landmarks);
+  for (const Index l : world.seen) ++seen[l];
+  CHECK(*std::min_element(seen.begin(), seen.end()) >= 3);
+}
+
+TEST_CASE("sine keeps what a sensor sees, and its path its step", "[world]") {
+  sg::Sine world;
+  world.poses = 200;
+  world.sensor = sg::Sensor::xyz;
+  world.landmark.observations = 1;
+  const sg::LandmarkGraph graph = sg::sine(world);
+  std::size_t observations = 0;
+  for (std::size_t k = 0; k < graph.poses.size(); ++k) {
+    const sg::SE2& pose = graph.poses[k];
+    const double slope =
+        15 * 2 * std::acos(-1.0) / 60 * std::cos(2 * std::acos(-1.0) / 60 * pose.x);
+    CHECK(std::tan(pose.theta) == Approx(slope).margin(1e-7));
+    if (k > 0) {  // the chord is shorter than the path by the curvature alone
+      const double chord = std::hypot(pose.x - graph.poses[k - 1].x, pose.y - graph.poses[k - 1].y);
+      CHECK(chord == Approx(0.25).epsilon(1e-4));
+    }
+    for (const Vector3d& l : graph.landmarks) {
+      const double dx = l.x() - pose.x, dy = l.y() - pose.y, d = std::hypot(dx, dy);
+      const double off =
+          std::abs(std::remainder(std::atan2(dy, dx) - pose.theta, 2 * std::acos(-1.0)));
+      const double distance = std::hypot(d, l.z());
+      const bool in_view =
+          distance <= 25 && distance >= 1 && off <= std::acos(-1.0) / 4 && std::abs(l.z()) <= d;
+      observations += in_view;
+    }
+  }
+  CHECK(observations == graph.seen.size());
+}
+
+TEST_CASE("landmarks that stay are triangulated", "[world]") {
+  sg::LandmarkGraph graph;
+  graph.sensor = sg::Sensor::bearing;
+  graph.poses = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  graph.landmarks = {{1000, 1, 0}, {2, 2, 0}, {5, 0, 0}, {3, 1, 0}};
+  graph.seen = {3, 0, 1, 0, 1, 2, 0, 1, 2};  // landmark 3 once, 2 along a line, 0 too far away
+  graph.seen_begin = {0, 3, 6, 9};
+  sg::keep_triangulated(graph, {.observations = 2, .parallax = 1});
+  REQUIRE(graph.landmarks.size() == 1);
+  CHECK(graph.landmarks[0] == Vector3d(2, 2, 0));
+  CHECK(graph.seen == std::vector<Index>{0, 0, 0});
+  CHECK(graph.seen_begin == std::vector<Index>{0, 1, 2, 3});
+}
+
+TEST_CASE("worst joins every landmark to every pose", "[world]") {
+  for (const sg::Sensor sensor : sensors) {
+    sg::Worst world;
+    world.poses = 7;
+    world.landmarks = 11;
+    world.sensor = sensor;
+    const Graph graph = read(text_of_world(sg::worst(world), Copy::noisy));
+    check_spine(graph, 7);
+    REQUIRE(graph.vertices() == 18);
+    REQUIRE(graph.edges() == 6 + 7 * 11);
+    std::set<std::pair<Index, Index>> seen;
+    for (Index e = 0; e < graph.edges(); ++e) {
+      const auto ends = graph.edge(e);
+      const auto [pose, landmark] = std::minmax(ends[0], ends[1]);
+      if (landmark >= 7) seen.insert({pose, landmark});
+    }
+    CHECK(seen.size() == 77);
+  }
+}
+
+TEST_CASE("loop closures join what is near", "[world]") {
+  const auto nearest = [](const auto& graph, double reach) {
+    for (const sg::Loop& loop : graph.loops) {
+      REQUIRE(loop.from < loop.to - 1);
+      const auto z = between(graph.truth(loop.from), graph.truth(loop.to));
+      if constexpr (std::is_same_v<std::decay_t<decltype(z)>, sg::SE2>) {
+        REQUIRE(std::max(std::abs(z.x), std::abs(z.y)) <= reach);
+      } else {
+        REQUIRE(z.t.norm() <= reach);
+      }
+    }
+    REQUIRE(std::is_sorted(graph.loops.begin(), graph.loops.end(),
+                           [](const auto& a, const auto& b) { return a.to < b.to; }));
+    REQUIRE(graph.loops.size() > static_cast<std::size_t>(graph.poses) / 4);
+  };
+  nearest(sg::manhattan({.poses = 2000}), 1 + 1e-9);
+  nearest(sg::manhattan({.poses = 2000, .streets = {.block = 3, .side = 20}, .reach = 2}),
+          2 + 1e-9);
+  nearest(sg::sphere({.poses = 2500}), 1.01);
+  nearest(sg::torus({.poses = 5000}), 2);
+  nearest(sg::grid3d({.poses = 1000}), 1 + 1e-9);
+  nearest(sg::grid3d({.poses = 1000, .walk = sg::GridWalk::random}), 1 + 1e-9);
+}
+
+TEST_CASE("worlds have the sizes of the graphs they are named after", "[world]") {
+  const auto edges = [](const auto& graph) {
+    return graph.poses - 1 + static_cast<Index>(graph.loops.size());
+  };
+  CHECK(edges(sg::sphere({.poses = 2500})) == 4949);                           // sphere2500
+  CHECK(edges(sg::torus({.poses = 5000})) == Approx(9048).epsilon(0.05));      // torus3D
+  CHECK(edges(sg::grid3d({.poses = 8000})) == Approx(22236).epsilon(0.05));    // grid3D
+  CHECK(edges(sg::manhattan({.poses = 3500})) == Approx(5453).epsilon(0.05));  // M3500
+}
+
+TEST_CASE("a grid's sweep closes every pair of neighbours when it misses none", "[world]") {
+  for (const Index side : {2, 3, 4}) {
+    const auto graph = sg::grid3d({.poses = side * side * side, .side = side, .loop_chance = 1});
+    const std::size_t pairs = 3 * side * side * (side - 1);
+    CHECK(graph.loops.size() == pairs - (graph.poses - 1));
+  }
+}
+
+TEST_CASE("poses stay inside the city, on its streets, a metre apart", "[world]") {
+  sg::Random random = sg::random_stream(3, sg::Stream::structure);
+  const auto walk = sg::street_walk({.block = 4, .side = 10}, 5000, random);
+  for (std::size_t k = 0; k < walk.size(); ++k) {
+    REQUIRE(std::min(walk[k].x, walk[k].y) >= 0);
+    REQUIRE(std::max(walk[k].x, walk[k].y) <= 12);  // whole blocks
+    REQUIRE((walk[k].x % 4 == 0 || walk[k].y % 4 == 0));
+    if (k > 0)
+      REQUIRE(std::abs(walk[k].x - walk[k - 1].x) + std::abs(walk[k].y - walk[k - 1].y) == 1);
+  }
+}
+
+TEST_CASE("city finds all landmarks in view", "[world]") {
+  const sg::City world{
+      .poses = 300, .landmarks = 400, .optics = {.range = 7, .near = 0.1, .view = 120}};
+  const sg::LandmarkGraph graph = sg::city(world);
+  std::size_t seen = 0;
+  for (const sg::SE2& pose : graph.poses) {
+    for (const Vector3d& l : graph.landmarks) {
+      const double dx = l.x() - pose.x, dy = l.y() - pose.y, d = std::hypot(dx, dy);
+      const double off =
+          std::abs(std::remainder(std::atan2(dy, dx) - pose.theta, 2 * std::acos(-1.0)));
+      seen += d <= 7 && d >= 0.1 && off <= std::acos(-1.0) / 3;
+    }
+  }
+  CHECK(seen == graph.seen.size());
+}
+
+TEST_CASE("a seed gives the same world again, another seed another", "[world]") {
+  const auto text = [](std::uint64_t seed) {
+    sg::Sine world;
+    world.poses = 30;
+    world.seed = seed;
+    return text_of_world(sg::sine(world), Copy::noisy);
+  };
+  CHECK(text(1) == text(1));
+  CHECK(text(1) != text(2));
+  CHECK(text(1) != text(1 + (std::uint64_t{1} << 32)));
+}
+
+TEST_CASE("another noise moves no landmark and no pose of the truth", "[world]") {
+  sg::Sine world;
+  world.poses = 30;
+  const std::string before = text_of_world(sg::sine(world), Copy::exact);
+  world.guess = sg::Guess::truth;
+  world.guess_noise = 0.5;
+  CHECK(text_of_world(sg::sine(world), Copy::exact) == before);
+}
+
+TEST_CASE("odometry adds up to the estimates", "[world]") {
+  const Graph graph = read(text_of_world(sg::manhattan({.poses = 500}), Copy::noisy));
+  std::vector<double> a, b, z;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const auto ends = graph.edge(e);
+    if (ends[1] != ends[0] + 1) continue;
+    vertex_numbers(graph, ends[0], a);
+    vertex_numbers(graph, ends[1], b);
+    edge_numbers(graph, e, z);
+    CHECK((error_of("EDGE_SE2", a, b, z, {})).norm() < 1e-8);
+  }
+}
+
+TEST_CASE("numbers are rounded to nine digits after the point", "[world]") {
+  const auto written = [](double x) {
+    std::string text;
+    sg::Out out{[&](std::string_view piece) { text += piece; }};
+    number(out, x);
+    flush(out);
+    return text;
+  };
+  CHECK(written(0) == " 0");
+  CHECK(written(-0.0) == " 0");
+  CHECK(written(-4e-10) == " 0");
+  CHECK(written(6e-10) == " 0.000000001");
+  CHECK(written(-1.5) == " -1.5");
+  CHECK(written(100) == " 100");
+  CHECK(written(1234.0000000004) == " 1234");
+  CHECK(written(-0.123456789499) == " -0.123456789");
+  CHECK(written(8999999.125) == " 8999999.125");
+  CHECK(written(1e20) == " 1e+20");
+  sg::Random random = sg::random_stream(1, sg::Stream::structure);
+  for (int i = 0; i < 10000; ++i) {
+    const double x = sg::normal(random, std::pow(10, sg::uniform(random, -9, 6)));
+    CHECK(std::stod(written(x)) == sg::rounded(x));
+    CHECK(std::abs(sg::rounded(x) - x) <= 0.5e-9 + 1e-15 * std::abs(x));
+  }
+}
