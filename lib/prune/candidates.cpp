@@ -68,6 +68,10 @@ void sweep_landmarks(const Graph& graph, const PoseIndex& poses, Index min_obs, 
     return graph.role(v) == Role::landmark && !removal.vertex[v] && seen.observed[v] &&
            seen.count[v] < min_obs;
   };
+  // Not what joins dropped poses: that may be rewritten to join others.
+  const auto swept_away = [&](Index v) {
+    return graph.role(v) == Role::landmark && removal.vertex[v];
+  };
   // An edge of several landmarks takes an observation from all of them when one leaves: again,
   // then, until nothing changes.
   for (bool changed = true; changed;) {
@@ -80,9 +84,7 @@ void sweep_landmarks(const Graph& graph, const PoseIndex& poses, Index min_obs, 
     if (!changed) return;
     for (Index e = 0; e < graph.edges(); ++e) {
       const auto ends = graph.edge(e);
-      if (removal.edge[e] ||
-          std::none_of(ends.begin(), ends.end(), [&](Index v) { return removal.vertex[v]; }))
-        continue;
+      if (removal.edge[e] || std::none_of(ends.begin(), ends.end(), swept_away)) continue;
       removal.edge[e] = true;
       if (!observes(graph, poses, e)) continue;
       for (Index v : ends) --seen.count[v];

@@ -27,6 +27,7 @@ setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 @test "landmarks with too few observations leave" {
   sg-kf -r 4 --min-obs 2 walk.g2o >out.g2o
   ! grep -q _XY out.g2o
+  [ "$(awk '/^EDGE_SE2 / {print $2, $3}' out.g2o | paste -sd,)" = "0 4,4 0" ]  # and no odometry with them
 }
 
 @test "priors of dropped poses go, and a message says so" {
