@@ -5,6 +5,7 @@
 #include "formats/formats.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
+#include "lib/graph/error.h"
 
 using namespace sg;
 
@@ -101,4 +102,258 @@ TEST_CASE("every model's Jacobian is its numerical one", "[factor]") {
   for (const Model& model : models()) {
     for (int trial = 0; trial < 20; ++trial) check_jacobian(random_instance(model));
   }
+}
+
+namespace {
+
+Graph graph_of(const std::string& text) {
+  return read_graph_text(text_of(text), "test.g2o");
+}
+Graph test_graph(const std::string& name) {
+  return read_graph(SGTOOLS_TESTDATA "/" + name);
+}
+
+std::string message_of(const std::string& text) {
+  const Graph graph = graph_of(text);
+  try {
+    const Problem problem = make_problem(graph);
+    start_values(problem);
+  } catch (const Error& error) {
+    return message(error);
+  }
+  return "";
+}
+
+// The system as one dense matrix [A b], columns by variable.
+Eigen::MatrixXd dense(const Problem& problem, const LinearSystem& system) {
+  const Pattern& pattern = *system.pattern;
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(0, problem.step_at.back() + 1);
+  for (Index r = 0; r < pattern.rows(); ++r) {
+    const auto top = all.rows();
+    const int height = system.height[r];
+    all.conservativeResize(top + height, Eigen::NoChange);
+    all.bottomRows(height).setZero();
+    const double* block = system.block(r);
+    for (Index j : pattern.row(r)) {
+      all.block(top, problem.step_at[j], height, pattern.dim[j]) =
+          Eigen::Map<const Eigen::MatrixXd>(block, height, pattern.dim[j]);
+      block += height * pattern.dim[j];
+    }
+    all.bottomRows(height).rightCols(1) = Eigen::Map<const Eigen::MatrixXd>(block, height, 1);
+  }
+  return all;
+}
+
+// The same by moving every scalar of the estimate a little. Rows of the edges alone.
+Eigen::MatrixXd numerical(const Problem& problem, const Values& values) {
+  const auto errors = [&](const Values& x) {
+    std::vector<double> all;
+    for (Index e = 0; e < problem.graph->edges(); ++e) {
+      const Model& model = *problem.model[e];
+      std::array<const double*, max_ends> ends{};
+      for (std::size_t k = 0; k < problem.graph->edge(e).size(); ++k) {
+        ends[k] = x.data() + problem.value_at[problem.graph->edge(e)[k]];
+      }
+      double r[max_dim];
+      model.error(ends.data(), problem.constants.data() + problem.constants_at[e],
+                  problem.whitening.data() + problem.whitening_at[e], r);
+      all.insert(all.end(), r, r + model.dim);
+    }
+    return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Index>(all.size())));
+  };
+  const int scalars = problem.step_at.back();
+  const Eigen::VectorXd at = errors(values);
+  Eigen::MatrixXd all(at.size(), scalars + 1);
+  for (int k = 0; k < scalars; ++k) {
+    const auto moved = [&](double h) {
+      std::vector<double> step(scalars, 0.0);
+      step[k] = h;
+      Values x = values;
+      retract(problem, step, x);
+      return errors(x);
+    };
+    all.col(k) = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+  }
+  all.rightCols(1) = -at;
+  if (problem.held >= 0) {
+    all.middleCols(problem.step_at[problem.held],
+                   problem.graph->dim(problem.variables.variable_vertex[problem.held]))
+        .setZero();
+  }
+  return all;
+}
+
+void check_system(const Graph& graph) {
+  const Problem problem = make_problem(graph);
+  const Values values = start_values(problem);
+  LinearSystem system = make_linear_system(problem);
+  linearize(problem, values, {}, system);
+  const Eigen::MatrixXd expected = numerical(problem, values);
+  const Eigen::MatrixXd given = dense(problem, system).topRows(expected.rows());
+  for (Index r = 0; r < expected.rows(); ++r) {
+    INFO("row " << r);
+    CHECK((given.row(r) - expected.row(r)).norm() < 1e-6 * (1 + expected.row(r).norm()));
+  }
+  CHECK(chi2(problem, values) == Approx(given.rightCols(1).squaredNorm()).epsilon(1e-12));
+}
+
+}  // namespace
+
+// What g2o prints for these files.
+TEST_CASE("chi-square is g2o's", "[factor]") {
+  const auto chi2_of = [](const std::string& name) {
+    const Graph graph = test_graph(name);
+    const Problem problem = make_problem(graph);
+    return chi2(problem, start_values(problem));
+  };
+  CHECK(chi2_of("types-se2.g2o") == Approx(128.371198).margin(6e-7));
+  CHECK(chi2_of("types-se3.g2o") == Approx(600.010429).margin(6e-7));
+  CHECK(chi2_of("types-expmap.g2o") == Approx(5021.171853).margin(6e-7));
+}
+
+TEST_CASE("the files of every type hold every type", "[factor]") {
+  std::string text;
+  for (const char* name : {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o"}) {
+    text += std::string(test_graph(name).text.view);
+  }
+  for (const Model& model : models()) {
+    INFO(model.tag);
+    CHECK(text.find("\n" + std::string(model.tag) + " ") != text.npos);
+  }
+}
+
+TEST_CASE("the linearized system is the numerical one", "[factor]") {
+  for (const char* name : {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o"}) {
+    check_system(test_graph(name));
+  }
+}
+
+TEST_CASE("fixed vertices, loops and repeated edges linearize like the rest", "[factor]") {
+  const std::string vertices =
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0.2 0.1\nVERTEX_SE2 2 2 0 -3\nVERTEX_XY 3 1 1\n";
+  const std::string edges =
+      "EDGE_SE2 0 1 1 0 0 2 0.1 0 1 0 3\nEDGE_SE2 1 0 1 0 0 2 0.1 0 1 0 3\n"
+      "EDGE_SE2 1 2 1 0.1 3 1 0 0 1 0 1\nEDGE_SE2 1 1 0.1 0.2 0.3 1 0 0 1 0 1\n"
+      "EDGE_SE2_XY 2 3 1 1 1 0 1\nEDGE_SE2_XY 0 3 1 1 1 0 1\n";
+  check_system(graph_of(vertices + edges));
+  check_system(graph_of(vertices + "FIX 0\n" + edges));
+  check_system(graph_of(vertices + "FIX 1\n" + edges));
+  check_system(graph_of(vertices + "FIX 0 3\n" + edges));
+}
+
+TEST_CASE("the first pose is held unless something else holds the graph", "[factor]") {
+  const std::string two =
+      "VERTEX_XY 1 0 0\nVERTEX_SE2 2 0 0 0\nVERTEX_SE2 3 1 0 0\n"
+      "EDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 2 1 0 0 1 0 1\n";
+  const auto held = [](const std::string& text) {
+    const Graph graph = graph_of(text);
+    return make_problem(graph).held;
+  };
+  CHECK(held(two) == 1);
+  CHECK(held(two + "FIX 3\n") == -1);
+  CHECK(held(two + "EDGE_PRIOR_SE2 3 1 0 0 1 0 0 1 0 1\n") == -1);
+  CHECK(held(two + "EDGE_PRIOR_SE2_XY 3 1 0 1 0 1\n") == 1);
+}
+
+TEST_CASE("kernels weigh blocks by the slope of rho", "[factor]") {
+  for (const Kernel kernel : {Kernel{KernelShape::huber, 1.3}, Kernel{KernelShape::cauchy, 0.7}}) {
+    for (double s : {0.1, 1.0, 5.0, 100.0}) {
+      const double slope = (rho(kernel, s + 1e-5) - rho(kernel, s - 1e-5)) / 2e-5;
+      CHECK(weight(kernel, s) == Approx(slope).epsilon(1e-6));
+    }
+  }
+  const Graph graph = test_graph("types-se2.g2o");
+  const Problem problem = make_problem(graph);
+  const Values values = start_values(problem);
+  LinearSystem plain = make_linear_system(problem), weighed = make_linear_system(problem);
+  const Kernel kernel{KernelShape::huber, 0.5};
+  linearize(problem, values, {}, plain);
+  linearize(problem, values, kernel, weighed);
+  for (Index r = 0; r < graph.edges(); ++r) {
+    const double scale = std::sqrt(weight(kernel, edge_chi2(problem, values, r)));
+    for (Offset k = plain.begin[r]; k < plain.begin[r + 1]; ++k) {
+      CHECK(weighed.numbers[k] == Approx(scale * plain.numbers[k]).margin(1e-12));
+    }
+  }
+}
+
+TEST_CASE("a singular information matrix counts for what it says", "[factor]") {
+  const Graph graph =
+      graph_of("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 2 0.5\nEDGE_SE2 0 1 0 0 0 4 2 0 1 0 0\n");
+  const Problem problem = make_problem(graph);
+  CHECK(chi2(problem, start_values(problem)) == Approx(4 * 1 + 2 * 2 * 2 + 1 * 4));
+}
+
+TEST_CASE("estimates without VERTEX lines are composed", "[factor]") {
+  const Graph graph = graph_of(
+      "EDGE_SE2 0 9 5 5 0 1 0 0 1 0 1\n"  // a loop closure comes first, odometry counts
+      "EDGE_SE2 0 1 1 0 1.5707963267948966 1 0 0 1 0 1\n"
+      "EDGE_SE2 9 1 -1 0 0 1 0 0 1 0 1\n"
+      "EDGE_SE2_XY 1 20 2 1 1 0 1\n"
+      "EDGE_BEARING_SE2_XY 0 21 0.7853981633974483 1\nEDGE_BEARING_SE2_XY 1 21 0 1\n"
+      "EDGE_BEARING_SE2_XY 1 22 1.5707963267948966 1\n");
+  const Problem problem = make_problem(graph);
+  const Values values = start_values(problem);
+  const auto estimate = [&](Id id) {
+    const Index v = *find_vertex(graph, id);
+    std::vector<double> numbers = estimate_numbers(problem, values, v);
+    return Eigen::VectorXd(
+        Eigen::Map<Eigen::VectorXd>(numbers.data(), static_cast<Index>(numbers.size())));
+  };
+  const double quarter = 1.5707963267948966;
+  CHECK(estimate(0).norm() == 0);
+  CHECK((estimate(1) - Eigen::Vector3d(1, 0, quarter)).norm() < 1e-12);
+  CHECK((estimate(9) - Eigen::Vector3d(1, 1, quarter)).norm() < 1e-12);
+  CHECK((estimate(20) - Eigen::Vector2d(0, 2)).norm() < 1e-12);
+  CHECK((estimate(21) - Eigen::Vector2d(1, 1)).norm() < 1e-12);
+  CHECK((estimate(22) - Eigen::Vector2d(1 - lone_range, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("measurements without noise place every vertex exactly", "[factor]") {
+  // Pixels of random points from a moving camera; the first edges place poses, pixels triangulate.
+  std::string text = "PARAMS_CAMERAPARAMETERS 0 500 320 240 0\nVERTEX_SE3:EXPMAP 0 0 0 0 0 0 0 1\n";
+  text += "VERTEX_SE3:EXPMAP 1 1 0 0 0 0 0 1\nVERTEX_XYZ 2 0 0 0\nFIX 0 1\n";
+  text += "EDGE_PROJECT_XYZ2UV:EXPMAP 2 0 0 445 365 1 0 1\n";  // (1, 1, 4)
+  text += "EDGE_PROJECT_XYZ2UV:EXPMAP 2 1 0 320 365 1 0 1\n";
+  const Graph graph = graph_of(text);
+  const Problem problem = make_problem(graph);
+  const Values values = initial_values(problem);
+  CHECK(chi2(problem, values) < 1e-16);
+}
+
+TEST_CASE("estimates go to text and back", "[factor]") {
+  for (const char* name : {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o"}) {
+    const Graph graph = test_graph(name);
+    const Problem problem = make_problem(graph);
+    const Values values = file_values(problem);
+    for (Index v = 0; v < graph.vertices(); ++v) {
+      std::vector<double> numbers;
+      vertex_numbers(graph, v, numbers);
+      const auto written = estimate_numbers(problem, values, v);
+      REQUIRE(written.size() == numbers.size());
+      for (std::size_t k = 0; k < numbers.size(); ++k) {
+        CHECK(written[k] == Approx(numbers[k]).margin(1e-6));
+      }
+    }
+  }
+  const Graph graph = graph_of("VERTEX_SE2 0 0.1 -1e-300 3\nEDGE_PRIOR_SE2_XY 0 0 0 1 0 1\n");
+  const Problem problem = make_problem(graph);
+  CHECK(estimate_text(problem, file_values(problem), 0) == "0.1 -1e-300 3");
+}
+
+TEST_CASE("what cannot be solved is said with its line", "[factor]") {
+  const std::string two = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_XY 2 0 0\n";
+  CHECK(message_of(two + "EDGE_SE2_POINTXY_OFFSET 0 2 0 1 1 1 0 1\n") ==
+        "test.g2o:4: EDGE_SE2_POINTXY_OFFSET has no measurement model here");
+  CHECK(message_of(two + "EDGE_SE2 0 1 1 0 0 1 2 0 1 0 1\n") ==
+        "test.g2o:4: the information matrix is not positive semidefinite");
+  CHECK(message_of(two + "EDGE_SE2 0 1 nan 0 0 1 0 0 1 0 1\n") ==
+        "test.g2o:4: a number is not finite");
+  CHECK(message_of("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n") ==
+        "test.g2o:1: a quaternion has length zero");
+  CHECK(message_of("VERTEX_PLANE 0 1 0 0 1\n") ==
+        "test.g2o:1: VERTEX_PLANE has no measurement model here");
+  CHECK(message_of("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_TRACKXYZ 1 0 0 1\n"
+                   "EDGE_SE3_TRACKXYZ 0 1 7 0 0 1 1 0 0 1 0 1\n") ==
+        "test.g2o:3: EDGE_SE3_TRACKXYZ wants a PARAMS_SE3OFFSET line with the id 7");
 }
