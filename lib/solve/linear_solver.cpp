@@ -1,13 +1,24 @@
 #include "lib/solve/linear_solver.h"
 
 #include <array>
+#include <memory>
 
 #include "lib/graph/error.h"
+#include "lib/solve/eliminate.h"
 
 namespace sg {
 namespace {
 
+LinearSolver tree_solver(const LinearSystem& system, const Order& order, int threads) {
+  const auto plan = std::make_shared<Elimination>(plan_elimination(system, order, threads));
+  return {[plan](const LinearSystem& s, std::span<const double> damping) {
+            return eliminate(*plan, s, damping).empty();
+          },
+          [plan](std::vector<double>& step) { back_substitute(*plan, step); }};
+}
+
 constexpr std::array table{
+    Backend{"tree", "multifrontal Cholesky on the Bayes tree", tree_solver},
     Backend{"cholmod", "supernodal Cholesky by CHOLMOD", cholmod_solver},
 };
 
