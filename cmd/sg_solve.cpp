@@ -8,6 +8,7 @@
 
 #include "cmd/common/command.h"
 #include "cmd/common/estimates.h"
+#include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
@@ -25,11 +26,11 @@ struct Options {
   sg::Input input;
   sg::OutputOptions output;
   sg::TableOptions table;
-  std::string method = "lm";
+  bool gauss_newton = false;
   int iterations = 100;
   double tolerance = 1e-9;
   std::string kernel;
-  std::string order = "colamd";
+  std::string order;
   std::string backend{sg::backends().front().name};
   int threads = 0;
   int runs = 0;
@@ -40,8 +41,7 @@ struct Options {
 void add_options(sg::Command& command, Options& options) {
   sg::add_input(command, options.input);
   auto& app = command.app;
-  app.add_option("--method", options.method, "lm: Levenberg-Marquardt (default); gn: Gauss-Newton")
-      ->option_text("lm|gn");
+  app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
   app.add_option("-i,--iterations", options.iterations, "At most N iterations (default: 100)")
       ->option_text("N")
       ->check(CLI::NonNegativeNumber);
@@ -51,15 +51,16 @@ void add_options(sg::Command& command, Options& options) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--kernel", options.kernel, "Robust kernel huber or cauchy, of width W")
       ->option_text("NAME:W");
-  app.add_option("-m,--order", options.order, "Elimination ordering (default: colamd)")
-      ->option_text("ORDERING");
+  app.add_option("-m,--method", options.order,
+                 "Elimination ordering, as in sg-order (default: the\n"
+                 "one that sg-order left in the file, else colamd)")
+      ->option_text("METHOD");
   app.add_option("--backend", options.backend, "Eliminate by " + sg::backend_names())
       ->option_text("NAME");
   app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
       ->option_text("N")
       ->check(CLI::PositiveNumber);
-  app.add_flag("--init", options.from_edges,
-               "Start from the edges alone, not from the file's estimates");
+  app.add_flag("--init", options.from_edges, "Start from the edges alone, not from the file");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
@@ -83,22 +84,26 @@ sg::Kernel parse_kernel(const std::string& text) {
 
 sg::BatchOptions batch_options(const Options& options) {
   sg::BatchOptions batch;
-  if (options.method != "lm" && options.method != "gn") {
-    throw sg::usage_error("--method wants lm or gn, not '" + options.method + "'");
-  }
   batch.method =
-      options.method == "gn" ? sg::BatchMethod::gauss_newton : sg::BatchMethod::levenberg_marquardt;
+      options.gauss_newton ? sg::BatchMethod::gauss_newton : sg::BatchMethod::levenberg_marquardt;
   batch.iterations = options.iterations;
   batch.tolerance = options.tolerance;
   batch.kernel = parse_kernel(options.kernel);
   return batch;
 }
 
-// The order that -m asks for, of the graph without the gauge's row.
-sg::Order elimination_order(const Options& options, const sg::Graph& graph) {
-  const sg::GraphPattern variables = sg::graph_pattern(graph);
-  return sg::elimination_order(options.order, variables.pattern,
-                               sg::order_options(graph, variables));
+// The order that -m asks for, or that sg-order left in the file; and how the table calls it.
+struct NamedOrder {
+  std::string label;
+  sg::Order order;
+};
+NamedOrder elimination_order(const Options& options, const sg::Graph& graph) {
+  const sg::GraphPattern variables = sg::graph_pattern(graph);  // without the gauge's row
+  const bool ordered = options.order.empty() && !graph.order_method.empty();
+  const std::string fallback = ordered ? "file" : "colamd";
+  const std::string& name = options.order.empty() ? fallback : options.order;
+  return {ordered ? "file:" + graph.order_method : name,
+          sg::elimination_order(name, variables.pattern, sg::order_options(graph, variables))};
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -112,7 +117,7 @@ double median(std::vector<double> times) {
 }
 
 void print_times(const Options& options, const sg::Problem& problem, const sg::Values& values) {
-  const sg::Order order = elimination_order(options, *problem.graph);
+  const auto [label, order] = elimination_order(options, *problem.graph);
   const sg::Pattern& pattern = problem.variables.pattern;
   sg::LinearSystem system = sg::make_linear_system(problem);
   sg::linearize(problem, values, parse_kernel(options.kernel), system);
@@ -128,7 +133,7 @@ void print_times(const Options& options, const sg::Problem& problem, const sg::V
   const sg::Wide ec = sg::elimination_complexity(pattern, order);
   sg::Output output(options.output.path);
   sg::Table table(options.table, time_columns, output);
-  table.row({options.order, options.backend, std::int64_t{options.threads},
+  table.row({label, options.backend, std::int64_t{options.threads},
              std::int64_t{pattern.variables()}, std::int64_t{problem.graph->edges()}, ec,
              std::int64_t{options.runs}, plan, median(times), median(times) / sg::to_double(ec)});
   output.commit();
@@ -153,10 +158,13 @@ std::vector<bool> moved(const sg::Problem& problem) {
 
 void solve(const sg::Command& command, const Options& options, const sg::Problem& problem,
            sg::Values values) {
-  const sg::Order order = elimination_order(options, *problem.graph);
+  const sg::Order order = elimination_order(options, *problem.graph).order;
   sg::LinearSystem system = sg::make_linear_system(problem);
   const auto solver = sg::find_backend(options.backend).make(system, order, options.threads);
-  std::function<void(const sg::Iteration&)> report;
+  sg::Progress progress(command.name, "iteration", options.iterations);
+  std::function<void(const sg::Iteration&)> report = [&](const sg::Iteration& iteration) {
+    progress.update(iteration.number);
+  };
   if (command.verbose) {
     const sg::Kernel kernel = parse_kernel(options.kernel);
     std::cerr << "iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n";
@@ -174,9 +182,9 @@ void solve(const sg::Command& command, const Options& options, const sg::Problem
 }
 
 void run(const sg::Command& command, Options options) {
-  batch_options(options);
+  parse_kernel(options.kernel);  // a wrong call is told before a long read
   sg::find_backend(options.backend);
-  sg::find_ordering(options.order);
+  if (!options.order.empty()) sg::find_ordering(options.order);
   if (options.threads == 0) options.threads = tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 

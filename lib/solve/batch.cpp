@@ -50,6 +50,19 @@ void check_finite(double chi2) {
   }
 }
 
+// The system at the current estimate. Where an observer and what it observes coincide, or a point lies in a camera's
+// plane, an edge has no derivative.
+void relinearize(Run& run) {
+  linearize(run.problem, run.values, run.options.kernel, run.system);
+  for (Index r = 0; r < run.problem.graph->edges(); ++r) {
+    const std::span<const double> block(run.system.block(r), run.system.block(r + 1));
+    if (std::ranges::all_of(block, [](double number) { return std::isfinite(number); })) continue;
+    const Graph& graph = *run.problem.graph;
+    throw Error(Fault::computation, graph.file, line_number(graph, graph.edge_line[r]),
+                graph.type_of_edge(r).tag + " has no derivative at this estimate");
+  }
+}
+
 bool small_change(const Run& run, double before, double after) {
   const double tiny = std::numeric_limits<double>::min();
   return std::abs(before - after) <= run.options.tolerance * (std::min(before, after) + tiny);
@@ -62,7 +75,7 @@ void tell(const Run& run, const Iteration& iteration) {
 bool gauss_newton(Run& run, int& done) {
   while (done < run.options.iterations) {
     Stopwatch watch;
-    linearize(run.problem, run.values, run.options.kernel, run.system);
+    relinearize(run);
     const double linearize_s = watch.lap();
     if (!run.solver.eliminate(run.system, {})) {
       throw singular_error(run.problem, run.order, run.system);
@@ -105,7 +118,7 @@ double promised(const std::vector<double>& gradient, const std::vector<double>& 
 
 // Damping hides what the measurements leave undetermined: ask once without.
 void check_regular(Run& run) {
-  linearize(run.problem, run.values, run.options.kernel, run.system);
+  relinearize(run);
   if (!run.solver.eliminate(run.system, {})) {
     throw singular_error(run.problem, run.order, run.system);
   }
@@ -120,7 +133,7 @@ bool levenberg_marquardt(Run& run, int& done) {
   while (done < run.options.iterations && damping.lambda < largest_lambda) {
     Stopwatch watch;
     if (stale) {
-      linearize(run.problem, run.values, run.options.kernel, run.system);
+      relinearize(run);
       diagonal_and_gradient(run.system, diagonal, gradient);
       linearize_s = watch.lap();
     }
