@@ -47,7 +47,7 @@ void add_options(sg::Command& command, Options& options) {
       ->option_text("ID,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--seed", options.seed, "Seed of metis, scotch and random (default: 0)")
+  app.add_option("--seed", options.seed, "Seed of methods that draw or break ties (default: 0)")
       ->option_text("N");
   app.add_flag("--print", options.print, "Print the ids in their order instead of the graph");
   sg::add_filter_output(command, options.output);

@@ -21,6 +21,7 @@ std::string with_end_of(std::string_view lines, std::string_view place) {
 std::vector<Edit> reordered(const Graph& graph, const std::vector<Index>& order) {
   const std::vector<Index> places = file_order(graph);
   std::vector<Edit> edits;
+  edits.reserve(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (places[k] == order[k]) continue;
     const auto [begin, end] = vertex_extent(graph, places[k]);

@@ -38,8 +38,9 @@ std::span<const Ordering> orderings();
 const Ordering& find_ordering(std::string_view name);
 
 // The order of a method. `last` holds for every method: colamd, amd and wmf have it as a constraint
-// and take it into account; of the others the order is computed without it, and the variables of `last`
-// are then moved to its end, in their relative order.
+// and take it into account; of the others the order is computed without it, and the variables of
+// `last` are then moved to its end, in their relative order. Throws std::out_of_range where one of
+// them is no variable of the pattern.
 Order elimination_order(const Ordering& ordering, const Pattern& pattern,
                         const OrderOptions& options = {});
 Order elimination_order(std::string_view name, const Pattern& pattern,
