@@ -1,11 +1,12 @@
 #include "formats/formats.h"
 
 #include <array>
+#include <unordered_map>
 
 #include "formats/g2o.h"
 #include "formats/isam.h"
+#include "formats/line.h"
 #include "formats/toro.h"
-#include "lib/graph/tokens.h"
 
 namespace sg {
 namespace {
@@ -18,7 +19,14 @@ constexpr std::array formats{
     ReadFormat{"g2o", "g2o text", [](std::string_view) { return true; }, nullptr},
 };
 
-const ReadFormat& find_format(const std::string& name, std::string_view text) {
+}  // namespace
+
+std::span<const ReadFormat> read_formats() {
+  return formats;
+}
+
+const ReadFormat& find_format(const ReadOptions& options, std::string_view text) {
+  const std::string& name = options.format;
   std::string known;
   for (const ReadFormat& format : formats) {
     if (name.empty() ? format.looks_like(text) : format.name == name) return format;
@@ -27,14 +35,12 @@ const ReadFormat& find_format(const std::string& name, std::string_view text) {
   throw usage_error("unknown format '" + name + "'; there are " + known);
 }
 
-}  // namespace
-
-std::span<const ReadFormat> read_formats() {
-  return formats;
+std::string input_name(const std::string& path) {
+  return path == "-" ? "<stdin>" : path;
 }
 
 Graph read_graph(const std::string& path, const ReadOptions& options) {
-  return read_graph_text(read_text(path), path == "-" ? "<stdin>" : path, options);
+  return read_graph_text(read_text(path), input_name(path), options);
 }
 
 Graph read_graph_text(Text text, const std::string& file, const ReadOptions& options) {
@@ -43,9 +49,27 @@ Graph read_graph_text(Text text, const std::string& file, const ReadOptions& opt
   Tags tags = builtin_tags();
   for (const auto& spec : options.vertex_types) teach_vertex(tags, spec);
   for (const auto& spec : options.edge_types) teach_edge(tags, spec);
-  const ReadFormat& format = find_format(options.format, text.view);
+  const ReadFormat& format = find_format(options, text.view);
   if (format.to_g2o) text = text_of(format.to_g2o(text.view, file, complaint));
   return parse_g2o(std::move(text), file, std::move(tags), complaint);
+}
+
+std::vector<std::pair<std::string, std::int64_t>> count_tags(std::string_view text) {
+  std::vector<std::pair<std::string, std::int64_t>> counts;
+  std::unordered_map<std::string_view, std::size_t> place;
+  std::size_t last = 0;
+  for_lines(text, [&](std::string_view line) {
+    auto tag = next_word(line);
+    if (tag.empty()) return true;
+    if (tag.front() == '#') tag = tag.substr(0, 1);
+    if (last == counts.size() || counts[last].first != tag) {
+      last = place.try_emplace(tag, counts.size()).first->second;
+      if (last == counts.size()) counts.emplace_back(tag, 0);
+    }
+    ++counts[last].second;
+    return true;
+  });
+  return counts;
 }
 
 }  // namespace sg

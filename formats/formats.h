@@ -5,10 +5,12 @@
 // line number holds in the user's own file.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lib/graph/error.h"
@@ -31,7 +33,10 @@ struct ReadOptions {
 // mapped, not copied. Throws an input Error for what cannot be opened or read.
 Text read_text(const std::string& path);
 
-// Reads a graph. `path` "-" is standard input and is called <stdin> in messages.
+// What messages call a path: itself, "-" <stdin>.
+std::string input_name(const std::string& path);
+
+// Reads a graph. `path` "-" is standard input.
 Graph read_graph(const std::string& path, const ReadOptions& options = {});
 // The same from text in memory; `file` names it in messages.
 Graph read_graph_text(Text text, const std::string& file, const ReadOptions& options = {});
@@ -45,5 +50,10 @@ struct ReadFormat {
   std::string (*to_g2o)(std::string_view text, const std::string& file, const Complaint& complaint);
 };
 std::span<const ReadFormat> read_formats();
+// The one that options name or that the content tells. Throws a usage Error that lists the names.
+const ReadFormat& find_format(const ReadOptions& options, std::string_view text);
+
+// How many lines have each tag (comments: "#"), in the order in which the tags appear.
+std::vector<std::pair<std::string, std::int64_t>> count_tags(std::string_view text);
 
 }  // namespace sg

@@ -5,20 +5,6 @@
 #include <charconv>
 
 namespace sg {
-namespace {
-
-// Calls `visit` with every line, without its newline, until it returns false.
-template <class Visit>
-void for_lines(std::string_view text, const Visit& visit) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    if (!visit(text.substr(at, end - at))) return;
-    at = end + 1;
-  }
-}
-
-}  // namespace
-
 std::string quoted(std::string_view word) {
   constexpr std::size_t longest = 40;
   std::string text = "'";

@@ -2,6 +2,7 @@
 // line.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,16 @@ namespace sg {
 struct BadLine {
   std::string cause;
 };
+
+// Calls `visit` with every line, without its newline, until it returns false.
+template <class Visit>
+void for_lines(std::string_view text, const Visit& visit) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (!visit(text.substr(at, end - at))) return;
+    at = end + 1;
+  }
+}
 
 // The word in quotes as a message shows it: cut to a length that fits a line, without control
 // characters.

@@ -78,7 +78,8 @@ Text read_path(const std::string& path) {
 }  // namespace
 
 Text read_text(const std::string& path) {
-  if (path == "-") return unpacked(text_of(drain(STDIN_FILENO, "<stdin>")), "<stdin>");
+  if (path == "-")
+    return unpacked(text_of(drain(STDIN_FILENO, input_name(path))), input_name(path));
   try {
     return unpacked(read_path(path), path);
   } catch (const std::ios_base::failure& error) {

@@ -125,10 +125,18 @@ void add_inputs(Command& command, Inputs& inputs) {
   add_read_options(command, inputs.options);
 }
 
-Graph read(const Input& input) {
+Text read_text(const Input& input) {
   if (input.path == "-" && ::isatty(STDIN_FILENO))
     throw usage_error("no graph: give a FILE or pipe one in");
-  Graph graph = read_graph(input.path, input.options);
+  return read_text(input.path);
+}
+
+Graph read(const Input& input) {
+  return read(input, read_text(input));
+}
+
+Graph read(const Input& input, Text text) {
+  Graph graph = read_graph_text(std::move(text), input_name(input.path), input.options);
   // Nothing at all is what a failed command upstream leaves, not a graph.
   if (graph.vertices() == 0)
     throw input_error(graph.file, 0, "there is no vertex and no edge in it");

@@ -48,6 +48,9 @@ void add_inputs(Command& command, Inputs& inputs);
 // Reads the graph. A terminal as standard input is a usage error, since nobody types a graph; a file
 // without a vertex is an input error.
 Graph read(const Input& input);
+// The same in two, for commands that look at the text as well.
+Text read_text(const Input& input);
+Graph read(const Input& input, Text text);
 Graph read(const Inputs& inputs, const std::string& path);
 
 // -o FILE, and for filters --no-trace-comment.

@@ -52,18 +52,27 @@ constexpr const char* SIM3 = "VERTEX_SIM3:EXPMAP";
 constexpr const char* TORO2 = "VERTEX2";
 constexpr const char* TORO3 = "VERTEX3";
 
+struct LineNumbers {
+  int measurement;
+  int all;
+};
+
 struct EdgeRow {
   const char* tag;
   int dim;
   std::array<const char*, 3> endpoints;
   int params;
-  int numbers;
+  LineNumbers numbers;
   bool counted = false;
 };
 
-// Numbers: the measurement, the upper triangle of its information, and what follows it.
-constexpr int with_information(int measurement, int dim, int extra = 0) {
-  return measurement + dim * (dim + 1) / 2 + extra;
+// The measurement, the upper triangle of its information, and what follows it.
+constexpr LineNumbers with_information(int measurement, int dim, int extra = 0) {
+  return {measurement, measurement + dim * (dim + 1) / 2 + extra};
+}
+constexpr LineNumbers unknown{-1, -1};
+constexpr LineNumbers per_vertex(int numbers) {
+  return {numbers, numbers};
 }
 
 constexpr std::array edge_rows{
@@ -75,7 +84,7 @@ constexpr std::array edge_rows{
     EdgeRow{"EDGE_SE2_LINE2D", 2, {SE2, LINE2D}, 0, with_information(2, 2)},
     EdgeRow{"EDGE_SE2_SEGMENT2D", 4, {SE2, SEGMENT2D}, 0, with_information(4, 4)},
     EdgeRow{"EDGE_SE2_SEGMENT2D_LINE", 2, {SE2, SEGMENT2D}, 0, with_information(2, 2)},
-    EdgeRow{"EDGE_SE2_SEGMENT2D_POINTLINE", 3, {SE2, SEGMENT2D}, 0, -1},
+    EdgeRow{"EDGE_SE2_SEGMENT2D_POINTLINE", 3, {SE2, SEGMENT2D}, 0, unknown},
     EdgeRow{"EDGE_POINTXY", 2, {XY, XY}, 0, with_information(2, 2)},
     EdgeRow{"EDGE_LINE2D", 2, {LINE2D, LINE2D}, 0, with_information(2, 2)},
     EdgeRow{"EDGE_LINE2D_POINTXY", 1, {LINE2D, XY}, 0, with_information(1, 1)},
@@ -85,8 +94,8 @@ constexpr std::array edge_rows{
     EdgeRow{"EDGE_SE2_CALIB", 3, {SE2, SE2, SE2}, 0, with_information(3, 3)},
     EdgeRow{"EDGE_SE2_XY_CALIB", 2, {SE2, XY, SE2}, 0, with_information(2, 2)},
     EdgeRow{"EDGE_SE2_TWOPOINTSXY", 4, {SE2, XY, XY}, 0, with_information(4, 4)},
-    EdgeRow{"EDGE_SE2_LOTSOFXY", -1, {SE2, XY}, 0, 2, true},
-    EdgeRow{"EDGE_SE2_ODOM_DIFFERENTIAL_CALIB", 3, {SE2, SE2, ODOM}, 0, -1},
+    EdgeRow{"EDGE_SE2_LOTSOFXY", -1, {SE2, XY}, 0, per_vertex(2), true},
+    EdgeRow{"EDGE_SE2_ODOM_DIFFERENTIAL_CALIB", 3, {SE2, SE2, ODOM}, 0, unknown},
     EdgeRow{"EDGE_SE3:QUAT", 6, {SE3, SE3}, 0, with_information(7, 6)},
     EdgeRow{"EDGE_SE3_OFFSET", 6, {SE3, SE3}, 2, with_information(7, 6)},
     EdgeRow{"EDGE_SE3_TRACKXYZ", 3, {SE3, TRACKXYZ}, 1, with_information(3, 3)},
@@ -97,11 +106,11 @@ constexpr std::array edge_rows{
     EdgeRow{"EDGE_POINTXYZ", 3, {TRACKXYZ, TRACKXYZ}, 0, with_information(3, 3)},
     EdgeRow{"EDGE_POINTXYZ_PRIOR", 3, {TRACKXYZ}, 0, with_information(3, 3)},
     EdgeRow{"EDGE_SE3_LINE3D", 4, {SE3, LINE3D}, 1, with_information(6, 4)},
-    EdgeRow{"EDGE_PLANE", 4, {PLANE, PLANE}, 0, -1},
-    EdgeRow{"EDGE_SE3_PLANE_CALIB", 3, {SE3, PLANE, SE3}, 0, -1},
+    EdgeRow{"EDGE_PLANE", 4, {PLANE, PLANE}, 0, unknown},
+    EdgeRow{"EDGE_SE3_PLANE_CALIB", 3, {SE3, PLANE, SE3}, 0, unknown},
     EdgeRow{"EDGE_SE3_CALIB", 6, {SE3, SE3, SE3}, 0, with_information(7, 6)},
-    EdgeRow{"EDGE_SE3_LOTSOF_XYZ", -1, {SE3, TRACKXYZ}, 0, 3, true},
-    EdgeRow{"EDGE_V_V_GICP", 3, {SE3, SE3}, 0, -1},
+    EdgeRow{"EDGE_SE3_LOTSOF_XYZ", -1, {SE3, TRACKXYZ}, 0, per_vertex(3), true},
+    EdgeRow{"EDGE_V_V_GICP", 3, {SE3, SE3}, 0, unknown},
     EdgeRow{"EDGE3", 6, {TORO3, TORO3}, 0, with_information(6, 6)},
     EdgeRow{"EDGE2", 3, {TORO2, TORO2}, 0, with_information(3, 3)},
     EdgeRow{"EDGE_SE3:EXPMAP", 6, {EXPMAP, EXPMAP}, 0, with_information(7, 6)},
@@ -109,13 +118,13 @@ constexpr std::array edge_rows{
     EdgeRow{"EDGE_PROJECT_XYZ2UVU:EXPMAP", 3, {XYZ, EXPMAP}, 1, with_information(3, 3)},
     EdgeRow{"EDGE_SE3_PROJECT_XYZ:EXPMAP", 2, {XYZ, EXPMAP}, 0, with_information(2, 2, 4)},
     EdgeRow{"EDGE_STEREO_SE3_PROJECT_XYZ:EXPMAP", 3, {XYZ, EXPMAP}, 0, with_information(3, 3, 5)},
-    EdgeRow{"EDGE_SE3_PROJECT_XYZONLYPOSE:EXPMAP", 2, {EXPMAP}, 0, -1},
-    EdgeRow{"EDGE_STEREO_SE3_PROJECT_XYZONLYPOSE:EXPMAP", 3, {EXPMAP}, 0, -1},
+    EdgeRow{"EDGE_SE3_PROJECT_XYZONLYPOSE:EXPMAP", 2, {EXPMAP}, 0, unknown},
+    EdgeRow{"EDGE_STEREO_SE3_PROJECT_XYZONLYPOSE:EXPMAP", 3, {EXPMAP}, 0, unknown},
     EdgeRow{"EDGE_PROJECT_P2MC", 2, {XYZ, CAM}, 0, with_information(2, 2)},
     EdgeRow{"EDGE_PROJECT_P2SC", 3, {XYZ, CAM}, 0, with_information(3, 3)},
     EdgeRow{"EDGE_CAM", 6, {CAM, CAM}, 0, with_information(7, 6)},
     EdgeRow{"EDGE_SCALE", 1, {CAM, CAM}, 0, with_information(1, 1)},
-    EdgeRow{"EDGE_SIM3:EXPMAP", 7, {SIM3, SIM3}, 0, -1},
+    EdgeRow{"EDGE_SIM3:EXPMAP", 7, {SIM3, SIM3}, 0, unknown},
     EdgeRow{"EDGE_PROJECT_SIM3_XYZ:EXPMAP", 2, {XYZ, SIM3}, 0, with_information(2, 2)},
     EdgeRow{"EDGE_PROJECT_INVERSE_SIM3_XYZ:EXPMAP", 2, {XYZ, SIM3}, 0, with_information(2, 2)},
 };
@@ -186,7 +195,8 @@ Tags builtin_tags() {
     for (const char* endpoint : row.endpoints) {
       if (endpoint) endpoints.emplace_back(endpoint);
     }
-    add_edge(tags, {row.tag, row.dim, std::move(endpoints), row.counted, row.params, row.numbers});
+    add_edge(tags, {row.tag, row.dim, std::move(endpoints), row.counted, row.params,
+                    row.numbers.all, row.numbers.measurement});
   }
   for (const char* tag : param_tags) tags.meaning[tag] = {LineKind::param, 0};
   for (const char* tag : data_tags) tags.meaning[tag] = {LineKind::data, 0};
@@ -212,8 +222,8 @@ void teach_edge(Tags& tags, std::string_view spec) {
   if (arity == 0 || full(tags.edges.size())) {
     throw usage_error("--edge wants TAG:ARITY, as in EDGE_MINE:2, not '" + std::string(spec) + "'");
   }
-  add_edge(tags,
-           {std::string(spec.substr(0, at)), -1, std::vector<std::string>(arity), false, 0, -1});
+  add_edge(tags, {std::string(spec.substr(0, at)), -1, std::vector<std::string>(arity), false, 0,
+                  -1, -1});
 }
 
 }  // namespace sg

@@ -29,6 +29,7 @@ struct EdgeType {
   bool counted;  // TAG first-id count id...: the number of vertices stands in the line
   int params;    // parameter ids between the vertex ids and the measurement
   int numbers;   // numbers after those, -1 where it is not known (per repeated vertex if counted)
+  int measurement;  // how many of them are the measurement; its information follows; -1 as above
 };
 
 // Index into Tags::vertices or Tags::edges.

@@ -1,0 +1,61 @@
+#include <algorithm>
+
+#include "cmd/common/command.h"
+#include "lib/graph/check.h"
+
+namespace {
+
+struct Message {
+  std::size_t line;
+  bool error;
+  std::string cause;
+};
+
+// What reading and checking find in one file, by line.
+std::vector<Message> messages(const std::string& path, sg::ReadOptions options) {
+  std::vector<Message> found;
+  options.complaint = [&](const sg::Error& error) {
+    found.push_back({error.line, true, error.what()});
+  };
+  const sg::Graph graph = sg::read_graph(path, options);
+  if (graph.vertices() == 0) found.push_back({0, true, "there is no vertex and no edge in it"});
+  // Findings ascend: their numbers take one pass over the text.
+  std::size_t number = 1;
+  sg::Offset at = 0;
+  const std::string_view text = graph.text.view;
+  for (const sg::Finding& finding : sg::check(graph)) {
+    number += std::count(text.begin() + at, text.begin() + std::max(at, finding.line), '\n');
+    at = std::max(at, finding.line);
+    found.push_back({number, finding.error, finding.cause});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Message& a, const Message& b) { return a.line < b.line; });
+  return found;
+}
+
+int check(const sg::Command& command, const sg::Inputs& inputs, const std::string& path) {
+  sg::Output output(path);
+  bool errors = false;
+  for (const auto& file : inputs.paths) {
+    const std::string name = sg::input_name(file);
+    for (const Message& found : messages(file, inputs.options)) {
+      errors = errors || found.error;
+      if (command.quiet && !found.error) continue;
+      const std::string place = found.line ? name + ":" + std::to_string(found.line) : name;
+      output.write(place + (found.error ? ": error: " : ": warning: ") + found.cause + "\n");
+    }
+  }
+  output.commit();
+  return errors ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  sg::Command command("sg-check", "Find what is wrong with a graph: a line a finding.");
+  sg::Inputs inputs;
+  sg::OutputOptions output;
+  sg::add_inputs(command, inputs);
+  sg::add_output(command, output);
+  return sg::run_status(command, argc, argv, [&] { return check(command, inputs, output.path); });
+}

@@ -1,0 +1,19 @@
+// Connected components: vertices that edges join, whatever their roles.
+#pragma once
+
+#include <vector>
+
+#include "lib/graph/graph.h"
+
+namespace sg {
+
+struct Components {
+  Index count = 0;
+  std::vector<Index> of;  // n: the component of every vertex; numbered by their first vertex
+};
+Components components(const Graph& graph);
+
+// Number of vertices of every component.
+std::vector<Index> sizes(const Components& components);
+
+}  // namespace sg

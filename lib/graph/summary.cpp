@@ -1,0 +1,60 @@
+#include "lib/graph/summary.h"
+
+#include <algorithm>
+
+#include "lib/graph/components.h"
+#include "lib/graph/replay.h"
+
+namespace sg {
+namespace {
+
+void count_vertices(const Graph& graph, Summary& summary) {
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    summary.poses += graph.role(v) == Role::pose;
+    summary.landmarks += graph.role(v) == Role::landmark;
+    summary.others += graph.role(v) == Role::other;
+    summary.fixed += graph.fixed[v];
+    summary.dim += graph.fixed[v] ? 0 : graph.dim(v);
+  }
+}
+
+std::int64_t rows_of(const Graph& graph, Index e) {
+  const EdgeType& type = graph.type_of_edge(e);
+  if (!type.counted) return std::max(type.dim, 0);
+  return std::max(type.measurement, 0) * (static_cast<std::int64_t>(graph.edge(e).size()) - 1);
+}
+
+void count_edges(const Graph& graph, Summary& summary) {
+  const PoseIndex poses = pose_index(graph);
+  summary.segments = static_cast<Index>(segments(graph, poses).size());
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const EdgeRole role = edge_role(graph, poses, e);
+    summary.odometry += role == EdgeRole::odometry;
+    summary.loop_closures += role == EdgeRole::loop_closure;
+    summary.observations += role == EdgeRole::observation;
+    summary.other_edges += role == EdgeRole::other;
+    summary.rows += rows_of(graph, e);
+    if (role != EdgeRole::observation) continue;
+    for (Index v : graph.edge(e)) summary.sights += graph.role(v) == Role::landmark;
+  }
+}
+
+void count_degrees(const Graph& graph, Summary& summary) {
+  std::vector<Index> degree(graph.vertices(), 0);
+  for (Index v : graph.edge_vertices) ++degree[v];
+  summary.isolated = static_cast<Index>(std::count(degree.begin(), degree.end(), 0));
+  if (!degree.empty()) summary.max_degree = *std::max_element(degree.begin(), degree.end());
+}
+
+}  // namespace
+
+Summary summarize(const Graph& graph) {
+  Summary summary;
+  count_vertices(graph, summary);
+  count_edges(graph, summary);
+  count_degrees(graph, summary);
+  summary.components = components(graph).count;
+  return summary;
+}
+
+}  // namespace sg
