@@ -83,7 +83,7 @@ void translate_quaternion_pose(std::string_view& rest, std::string& out) {
   for (const int k : {0, 1, 2, 3}) q.coeffs()[k] = read_number(rest);
   if (!(q.norm() > 0)) throw BadLine{"the quaternion is zero"};
   const Eigen::Vector3d angles = roll_pitch_yaw(q.normalized());
-  for (const double angle : angles) append_number(out, angle);
+  for (const double angle : angles) append_number(out, angle + 0.0);  // no -0
 }
 
 }  // namespace sg

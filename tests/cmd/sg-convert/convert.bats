@@ -1,0 +1,118 @@
+load ../common
+
+setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA"/* .; }
+
+# near A B: the same words, numbers to 1e-12.
+near() {
+  paste -d '\n' "$1" "$2" | awk -v one="$1" -v two="$2" '
+    NR % 2 { split($0, a); n = NF; next }
+    { if (NF != n) { print one ", " two ": line " NR / 2 " differs"; exit 1 }
+      for (k = 1; k <= NF; ++k) {
+        d = a[k] - $k; if (d < 0) d = -d
+        if (a[k] != $k && !(a[k] + 0 == a[k] && $k + 0 == $k && d <= 1e-12 * (1 + ($k < 0 ? -$k : $k)))) {
+          print one ", " two ": line " NR / 2 ": " a[k] " is not " $k; exit 1 } } }'
+}
+
+@test "g2o to TORO and back" {
+  grep -v 'FIX\|XY' walk.g2o >poses.g2o
+  sg-convert --to toro poses.g2o >poses.toro
+  grep -qx 'EDGE2 0 1 1 0 0 400 0 400 2500 0 0' poses.toro
+  sg-convert poses.toro | cmp - poses.g2o  # in the plane no number changes
+}
+
+@test "TORO in space to g2o and back" {
+  sg-convert square.toro >square.g2o
+  grep -q '^EDGE_SE3:QUAT 0 1 1 0 0 0 0 0.70710678118654.* 1600 0 0 1600 0 1600$' square.g2o
+  sg-convert --to toro square.g2o >back.toro
+  near square.toro back.toro
+}
+
+@test "iSAM to g2o and back" {
+  sg-convert park.isam >park.g2o
+  sg-convert --to isam park.g2o >back.isam
+  cmp <(grep -v '^#' park.isam) back.isam
+  sg-convert back.isam | cmp - <(grep -v '^#' park.g2o)
+}
+
+@test "a singular information has a square root, too" {
+  echo 'EDGE_SE2 0 1 1 0 0 4 2 0 1 0 0' >in.g2o
+  sg-convert --to isam in.g2o | sg-convert --from isam >out.g2o
+  near in.g2o out.g2o
+}
+
+@test "public graphs keep their numbers through iSAM and TORO" {
+  need_data
+  for graph in victoriaPark manhattanOlson3500; do
+    sg-convert --to isam "$SGTOOLS_DATA/$graph.isam.txt" | cmp - "$SGTOOLS_DATA/$graph.isam.txt"
+  done
+  sg-convert --to isam "$SGTOOLS_DATA/sphere400.isam.txt" >sphere.isam
+  near "$SGTOOLS_DATA/sphere400.isam.txt" sphere.isam
+  sg-convert --to toro "$SGTOOLS_DATA/manhattan.g2o" | sg-convert --from toro | cmp - "$SGTOOLS_DATA/manhattan.g2o"
+  sg-convert "$SGTOOLS_DATA/sphere400.isam.txt" >sphere.g2o
+  sg-convert --to toro sphere.g2o | sg-convert --from toro >back.g2o
+  near sphere.g2o back.g2o
+}
+
+@test "g2o passes through byte for byte" {
+  printf '\n VERTEX_SE2 1  1.0 0 -0\r\nROBOTLASER1 0 1\nFIX 1 1\nEDGE_PRIOR_SE2 1 1 0 0 1 0 0 1 0 1' >in.g2o
+  sg-convert in.g2o | cmp - in.g2o
+}
+
+@test "Matrix Market: the block and the scalar lower triangle" {
+  printf 'EDGE_SE2_XY 1 2 0 0 1 0 1\nEDGE_PRIOR_SE2 3 0 0 0 1 0 0 1 0 1\n' >in.g2o
+  sg-convert --to mtx in.g2o | grep -v '^%' >block.mtx
+  printf '3 3 4\n1 1\n2 1\n2 2\n3 3\n' | cmp - block.mtx
+  sg-convert --to mtx --scalar in.g2o | grep -v '^%' >scalar.mtx
+  # 3 + 2 + 3 scalars: two dense blocks, of 5 and of 3.
+  { echo 8 8 21
+    for j in 1 2 3 4 5; do for i in 1 2 3 4 5; do [ $i -lt $j ] || echo $i $j; done; done
+    for j in 6 7 8; do for i in 6 7 8; do [ $i -lt $j ] || echo $i $j; done; done; } | cmp - scalar.mtx
+}
+
+@test "fixed vertices are no variables of a matrix" {
+  [ "$(sg-convert --to mtx walk.g2o | sed -n 3p)" = "6 6 13" ]
+}
+
+@test "METIS: weights are dimensions, edges stand twice, multi-edges once" {
+  printf 'EDGE_SE2 1 2 0 0 0 1 0 0 1 0 1\nEDGE_SE2 2 1 0 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 2 9 0 0 1 0 1\n' >in.g2o
+  printf '3 2 010 1\n3 2\n3 1 3\n2 2\n' | cmp - <(sg-convert --to metis in.g2o | grep -v '^%')
+}
+
+@test "Graphviz draws it" {
+  printf 'EDGE_SE2_LOTSOFXY 1 2 8 9 0 0 0 0\nEDGE_SE2 1 2 0 0 0 1 0 0 1 0 1\nFIX 1\n' >in.g2o
+  sg-convert --to dot in.g2o >out.dot
+  grep -qx '  1 \[shape=circle, style=filled\];' out.dot
+  grep -qx '  e0 -- 9;' out.dot
+  grep -qx '  1 -- 2 \[style=bold\];' out.dot
+  if command -v dot >/dev/null; then dot -Tsvg out.dot >/dev/null; fi
+}
+
+@test "TUM: the trajectory, composed where the file has no estimates" {
+  sg-convert --to tum walk.g2o 2>/dev/null | sed -n 2p | grep -qx '1 1 0 0 0 0 0 1'
+  sg-convert -q --to tum park.isam | awk '
+    $1 == 1 { exit !(NF == 8 && $2 == 1 && $3 == 0 && $4 == 0 && ($7 - sqrt(0.5))^2 < 1e-20) }'
+}
+
+@test "estimates on request, and a file that needs none" {
+  sg-convert --estimates park.isam >park.g2o
+  [ "$(grep -c ^VERTEX park.g2o)" = 6 ]
+  sg-check park.g2o
+  sg-convert --estimates walk.g2o | cmp - walk.g2o
+}
+
+@test "what a format cannot hold is said, by its first line" {
+  fails 1 "sg-convert: walk.g2o:11: toro cannot hold EDGE_SE2_XY (6 lines; --lossy leaves them out)" \
+    sg-convert --to toro -o out.toro walk.g2o
+  [ ! -e out.toro ]
+  sg-convert --lossy -q --to toro walk.g2o | grep -vq XY
+  fails 0 "sg-convert: park.isam: tum cannot hold VERTEX_XY (2 lines, left out)" sg-convert --to tum park.isam
+  printf 'EDGE_SE3_TRACKXYZ 0 1 0 1 1 1 1 0 0 1 0 1\nPARAMS_SE3OFFSET 0 0 0 1 0 0 0 1\n' >offset.g2o
+  fails 1 "sg-convert: offset.g2o:1: isam cannot hold EDGE_SE3_TRACKXYZ (1 line; --lossy leaves them out)" \
+    sg-convert --to isam --from g2o offset.g2o
+}
+
+@test "wrong calls" {
+  fails 2 "sg-convert: unknown format 'obj'; there are g2o, toro, isam, mtx, metis, dot, tum (see sg-convert --help)" \
+    sg-convert --to obj walk.g2o
+  fails 2 "sg-convert: --scalar belongs to --to mtx (see sg-convert --help)" sg-convert --scalar walk.g2o
+}

@@ -1,0 +1,16 @@
+// The TORO reader and writer.
+#include "formats/toro.h"
+#include "tests/fuzz/reader.h"
+
+using namespace sg;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto graph = fuzz::graph_of(fuzz::copy_of(data, size), "toro");
+  if (!graph) return 0;
+  fuzz::require_consistent(*graph);
+  toro_losses(*graph);
+  fuzz::StringSink sink;
+  write_toro(*graph, {}, sink);
+  fuzz::graph_of(text_of(std::move(sink.text)), "toro");
+  return 0;
+}
