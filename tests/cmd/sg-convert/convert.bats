@@ -70,7 +70,7 @@ near() {
 }
 
 @test "fixed vertices are no variables of a matrix" {
-  [ "$(sg-convert --to mtx walk.g2o | sed -n 3p)" = "6 6 13" ]
+  [ "$(sg-convert --to mtx walk.g2o | sed -n 3p)" = "6 6 14" ]
 }
 
 @test "METIS: weights are dimensions, edges stand twice, multi-edges once" {
