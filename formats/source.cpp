@@ -64,7 +64,9 @@ std::string drain(int descriptor, const std::string& path) {
 }
 
 Text read_path(const std::string& path) {
-  if (std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) > 0) {
+  std::error_code failure;  // left to open(2), which says why
+  const bool regular = std::filesystem::is_regular_file(path, failure);
+  if (regular && std::filesystem::file_size(path, failure) > 0 && !failure) {
     auto map = std::make_shared<const io::mapped_file_source>(path);
     const std::string_view view(map->data(), map->size());
     return {std::move(map), view};

@@ -92,6 +92,7 @@ int run(Command& command, int argc, char** argv, const std::function<void()>& wo
 }
 
 int run_status(Command& command, int argc, char** argv, const std::function<int()>& work) {
+  clean_up_on_signals();
   std::signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE, and temporary files are removed
   command.call = command.name;
   for (int k = 1; k < argc; ++k) command.call += " " + shell_quoted(argv[k]);

@@ -4,7 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +23,40 @@ mode_t new_file_mode() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   return 0666 & ~mask;
+}
+
+// Temporary files, where a signal handler finds them; an empty path is a free place. No command
+// writes more files at a time.
+using Path = std::array<char, 4096>;
+std::array<Path, 4> doomed{};
+
+void doom(const std::string& path) {
+  for (Path& place : doomed) {
+    if (place[0] != '\0' || path.size() >= place.size()) continue;
+    path.copy(place.data(), path.size());
+    place[path.size()] = '\0';
+    return;
+  }
+}
+
+void spare(const std::string& path) {
+  for (Path& place : doomed) {
+    if (path == place.data()) place[0] = '\0';
+  }
+}
+
+// Only what a signal handler may do.
+void on_signal(int signal) {
+  for (const Path& path : doomed) {
+    if (path[0] != '\0') ::unlink(path.data());
+  }
+  if (signal == SIGBUS) {  // a mapped file has lost its end
+    constexpr std::string_view cause = "the input became shorter while it was read\n";
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, cause.data(), cause.size());
+    ::_exit(static_cast<int>(Fault::input));
+  }
+  std::signal(signal, SIG_DFL);
+  ::raise(signal);
 }
 
 }  // namespace
@@ -46,12 +82,16 @@ Output::Output(std::string path) : path_(std::move(path)) {
     temporary_.clear();
     fail("create");
   }
+  doom(temporary_);
   ::fchmod(descriptor_, exists ? status.st_mode & 07777 : new_file_mode());
 }
 
 Output::~Output() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
+  if (!temporary_.empty()) {
+    ::unlink(temporary_.c_str());
+    spare(temporary_);
+  }
+  if (!path_.empty() && descriptor_ >= 0) ::close(descriptor_);
 }
 
 void Output::fail(const char* doing) const {
@@ -85,13 +125,20 @@ void Output::write(std::string_view bytes) {
 void Output::commit() {
   flush(buffer_);
   buffer_.clear();
-  if (descriptor_ == STDOUT_FILENO) return;
+  if (path_.empty()) return;
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) fail("write");
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("rename the temporary file to");
+  spare(temporary_);
   temporary_.clear();
+}
+
+void clean_up_on_signals() {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGBUS}) {
+    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
+  }
 }
 
 }  // namespace sg

@@ -35,4 +35,8 @@ class Output final : public Sink {
   std::string buffer_;
 };
 
+// A command that is interrupted, or whose mapped input shrinks under it, removes its temporary file
+// before it ends.
+void clean_up_on_signals();
+
 }  // namespace sg
