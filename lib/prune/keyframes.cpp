@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 
 #include "lib/graph/error.h"
 
@@ -195,13 +196,22 @@ std::pair<Index, Index> around(const Keyframing& kf, Index e) {
 }  // namespace
 
 Odometry odometry_steps(const Graph& graph, const PoseIndex& poses) {
-  std::vector<Index> step(graph.edges(), -1);
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (edge_role(graph, poses, e) != EdgeRole::odometry) continue;
+  const auto step = [&](Index e) -> Index {
+    if (edge_role(graph, poses, e) != EdgeRole::odometry) return -1;
     const auto ends = graph.edge(e);
-    step[e] = std::max(poses.index[ends[0]], poses.index[ends[1]]);
+    return std::max(poses.index[ends[0]], poses.index[ends[1]]);
+  };
+  Odometry result;
+  result.begin.assign(pose_count(poses) + 1, 0);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (const Index k = step(e); k >= 0) ++result.begin[k];
   }
-  return by_step(step, pose_count(poses));
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  result.items.resize(result.begin.back());
+  for (Index e = graph.edges() - 1; e >= 0; --e) {
+    if (const Index k = step(e); k >= 0) result.items[--result.begin[k]] = e;
+  }
+  return result;
 }
 
 std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,

@@ -1,0 +1,195 @@
+#include "lib/elim/trees.h"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+#include "lib/graph/error.h"
+
+namespace sg {
+namespace {
+
+struct Common {
+  cholmod_common common{};
+  Common() {
+    cholmod_start(&common);
+    common.final_ll = false;  // L D L^T
+    common.supernodal = CHOLMOD_SIMPLICIAL;
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_AMD;
+    common.postorder = true;
+    common.print = 0;
+  }
+  ~Common() { cholmod_finish(&common); }
+  Common(const Common&) = delete;
+  Common& operator=(const Common&) = delete;
+};
+
+Index root(std::vector<Index>& part, Index node) {
+  while (part[node] != node) node = part[node] = part[part[node]];
+  return node;
+}
+
+void find_parts(SpanningTrees& trees, std::span<const Link> links, std::span<const double> weight) {
+  trees.part.resize(trees.position.size());
+  std::iota(trees.part.begin(), trees.part.end(), 0);
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (weight[k] <= 0) continue;
+    const Index a = root(trees.part, links[k].u), b = root(trees.part, links[k].v);
+    trees.part[std::max(a, b)] = std::min(a, b);
+  }
+  trees.ground = trees.part;  // of a root: itself
+}
+
+// The lower triangle of the grounded Laplacian, links of weight 0 included.
+cholmod_sparse* laplacian(SpanningTrees& trees, std::span<const Link> links,
+                          std::span<const double> weight, cholmod_common& common) {
+  const Index n = static_cast<Index>(trees.part.size());
+  cholmod_triplet* triplet =
+      cholmod_allocate_triplet(n, n, 3 * links.size() + n, -1, CHOLMOD_REAL, &common);
+  if (!triplet) throw std::bad_alloc();
+  auto* i = static_cast<int*>(triplet->i);
+  auto* j = static_cast<int*>(triplet->j);
+  auto* x = static_cast<double*>(triplet->x);
+  const auto put = [&](Index row, Index column, double value) {
+    i[triplet->nnz] = row, j[triplet->nnz] = column, x[triplet->nnz++] = value;
+  };
+  for (Index v = 0; v < n; ++v) put(v, v, trees.part[v] == v ? 1 : 0);
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const auto [u, v] = links[k];
+    if (u == v) continue;
+    put(u, u, weight[k]);
+    put(v, v, weight[k]);
+    put(std::max(u, v), std::min(u, v), -weight[k]);
+  }
+  cholmod_sparse* sparse = cholmod_triplet_to_sparse(triplet, 0, &common);
+  cholmod_free_triplet(&triplet, &common);
+  if (!sparse) throw std::bad_alloc();
+  return sparse;
+}
+
+// Takes the columns of CHOLMOD's factor, diagonal first in each.
+void take_factor(SpanningTrees& trees, const cholmod_factor& factor) {
+  const auto n = static_cast<Index>(factor.n);
+  const auto* perm = static_cast<const int*>(factor.Perm);
+  const auto* p = static_cast<const int*>(factor.p);
+  const auto* count = static_cast<const int*>(factor.nz);
+  const auto* i = static_cast<const int*>(factor.i);
+  const auto* x = static_cast<const double*>(factor.x);
+  trees.begin.push_back(0);
+  for (Index k = 0; k < n; ++k) {
+    trees.position[perm[k]] = k;
+    trees.diagonal.push_back(x[p[k]]);
+    trees.log_trees += std::log(x[p[k]]);
+    trees.row.insert(trees.row.end(), i + p[k] + 1, i + p[k] + count[k]);
+    trees.value.insert(trees.value.end(), x + p[k] + 1, x + p[k] + count[k]);
+    trees.begin.push_back(static_cast<Index>(trees.row.size()));
+  }
+}
+
+void factorize(SpanningTrees& trees, std::span<const Link> links, std::span<const double> weight) {
+  Common session;
+  cholmod_common& common = session.common;
+  cholmod_sparse* matrix = laplacian(trees, links, weight, common);
+  cholmod_factor* factor = cholmod_analyze(matrix, &common);
+  const bool done = factor && cholmod_factorize(matrix, factor, &common) &&
+                    factor->minor == factor->n && common.status == CHOLMOD_OK;
+  if (done) take_factor(trees, *factor);
+  cholmod_free_factor(&factor, &common);
+  cholmod_free_sparse(&matrix, &common);
+  if (!done || std::any_of(trees.diagonal.begin(), trees.diagonal.end(),
+                           [](double d) { return !(d > 0) || !std::isfinite(d); }))
+    throw computation_error("the graph's Laplacian cannot be factored: weights differ too much");
+}
+
+// The next column on the path to the root, -1 behind it.
+Index parent(const SpanningTrees& trees, Index column) {
+  const Index first = trees.begin[column];
+  return first < trees.begin[column + 1] ? trees.row[first] : -1;
+}
+
+// Adds scale x x^T to L D L^T, where x is `work`, whose first entry stands at `start` and whose
+// pattern lies on the path from there. Leaves zeros in `work`.
+void update(SpanningTrees& trees, Index start, double scale) {
+  auto& x = trees.work;
+  for (Index k = start; k >= 0; k = parent(trees, k)) {
+    const double xk = x[k], old = trees.diagonal[k];
+    x[k] = 0;
+    if (xk == 0) continue;
+    const double renewed = old + scale * xk * xk;
+    const double along = scale * xk / renewed;
+    trees.diagonal[k] = renewed;
+    for (Index at = trees.begin[k]; at < trees.begin[k + 1]; ++at) {
+      const Index i = trees.row[at];
+      x[i] -= xk * trees.value[at];
+      trees.value[at] += along * x[i];
+    }
+    scale *= old / renewed;
+  }
+}
+
+}  // namespace
+
+SpanningTrees spanning_trees(Index nodes, std::span<const Link> links,
+                             std::span<const double> weight) {
+  SpanningTrees trees;
+  trees.position.resize(nodes);
+  trees.work.assign(nodes, 0);
+  find_parts(trees, links, weight);
+  if (nodes == 0) {
+    trees.begin.push_back(0);
+  } else {
+    factorize(trees, links, weight);
+  }
+  return trees;
+}
+
+bool joined(SpanningTrees& trees, const Link& link) {
+  return root(trees.part, link.u) == root(trees.part, link.v);
+}
+
+double resistance(SpanningTrees& trees, const Link& link) {
+  if (link.u == link.v) return 0;
+  auto& x = trees.work;
+  x[trees.position[link.u]] = 1;
+  x[trees.position[link.v]] = -1;
+  double sum = 0;
+  for (Index k = std::min(trees.position[link.u], trees.position[link.v]); k >= 0;
+       k = parent(trees, k)) {
+    const double xk = x[k];
+    x[k] = 0;
+    if (xk == 0) continue;
+    sum += xk * xk / trees.diagonal[k];
+    for (Index at = trees.begin[k]; at < trees.begin[k + 1]; ++at) {
+      x[trees.row[at]] -= xk * trees.value[at];
+    }
+  }
+  return sum;
+}
+
+double gain(SpanningTrees& trees, const Link& link, double weight) {
+  return joined(trees, link) ? std::log1p(weight * resistance(trees, link)) : std::log(weight);
+}
+
+double add_link(SpanningTrees& trees, const Link& link, double weight) {
+  if (link.u == link.v) return 0;
+  const double result = gain(trees, link, weight);
+  const Index u = trees.position[link.u], v = trees.position[link.v];
+  const Index a = root(trees.part, link.u), b = root(trees.part, link.v);
+  trees.work[u] = 1;
+  trees.work[v] = -1;
+  update(trees, std::min(u, v), weight);
+  if (a != b) {  // one tie to the ground is enough for both
+    const Index ground = trees.position[trees.ground[std::max(a, b)]];
+    trees.part[std::max(a, b)] = std::min(a, b);
+    trees.work[ground] = 1;
+    update(trees, ground, -1);
+  }
+  trees.log_trees += result;
+  return result;
+}
+
+}  // namespace sg

@@ -1,0 +1,123 @@
+#include "lib/graph/tree_weights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/graph/error.h"
+
+namespace sg {
+namespace {
+
+// Rows and columns of an information matrix.
+struct Block {
+  int first;
+  int size;  // 0: there is none
+};
+
+struct Measured {
+  std::string_view tag;
+  int skip;  // numbers before the information
+  int dim;   // of the information
+  Block translation;
+  Block rotation;
+  double rotation_scale = 1;  // to radians^-2; half-angles carry a quarter
+};
+
+constexpr std::array measured{
+    Measured{"EDGE_SE2", 3, 3, {0, 2}, {2, 1}},
+    Measured{"EDGE_SE2_OFFSET", 3, 3, {0, 2}, {2, 1}},
+    Measured{"EDGE_SE3:QUAT", 7, 6, {0, 3}, {3, 3}, 0.25},
+    Measured{"EDGE_SE3_OFFSET", 7, 6, {0, 3}, {3, 3}, 0.25},
+    Measured{"EDGE_SE3:EXPMAP", 7, 6, {3, 3}, {0, 3}},
+    Measured{"EDGE_SE2_XY", 2, 2, {0, 2}, {0, 0}},
+    Measured{"EDGE_SE2_POINTXY_OFFSET", 2, 2, {0, 2}, {0, 0}},
+    Measured{"EDGE_POINTXY", 2, 2, {0, 2}, {0, 0}},
+    Measured{"EDGE_SE3_TRACKXYZ", 3, 3, {0, 3}, {0, 0}},
+    Measured{"EDGE_POINTXYZ", 3, 3, {0, 3}, {0, 0}},
+};
+
+const Measured& measured_type(const Graph& graph, Index e) {
+  const std::string& tag = graph.type_of_edge(e).tag;
+  const auto it = std::find_if(measured.begin(), measured.end(),
+                               [&](const Measured& type) { return type.tag == tag; });
+  if (it == measured.end()) {
+    throw error_at(graph, graph.edge_line[e],
+                   tag + " measures neither translation nor rotation: only unit weights are known");
+  }
+  return *it;
+}
+
+// The block's determinant, to the power of one over its size.
+double mean_information(const Measured& type, const Block& block,
+                        const std::vector<double>& numbers) {
+  const auto w = [&](int i, int j) {
+    i += block.first, j += block.first;
+    if (i > j) std::swap(i, j);
+    return numbers[type.skip + i * type.dim - i * (i - 1) / 2 + (j - i)];
+  };
+  if (block.size == 0) return 0;
+  if (block.size == 1) return std::max(0.0, w(0, 0));
+  if (block.size == 2) return std::sqrt(std::max(0.0, w(0, 0) * w(1, 1) - w(0, 1) * w(0, 1)));
+  const double det = w(0, 0) * (w(1, 1) * w(2, 2) - w(1, 2) * w(1, 2)) -
+                     w(0, 1) * (w(0, 1) * w(2, 2) - w(1, 2) * w(0, 2)) +
+                     w(0, 2) * (w(0, 1) * w(1, 2) - w(1, 1) * w(0, 2));
+  return std::cbrt(std::max(0.0, det));
+}
+
+TreeLayer unit_layer(const Graph& graph) {
+  TreeLayer layer{1, std::vector<double>(graph.edges(), 0)};
+  for (Index e = 0; e < graph.edges(); ++e) layer.weight[e] = graph.edge(e).size() > 1 ? 1 : 0;
+  return layer;
+}
+
+// Translation and rotation.
+std::array<TreeLayer, 2> information_layers(const Graph& graph) {
+  std::array<TreeLayer, 2> layers;
+  for (TreeLayer& layer : layers) layer.weight.assign(graph.edges(), 0);
+  std::vector<double> numbers;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (graph.edge(e).size() < 2) continue;
+    const Measured& type = measured_type(graph, e);
+    edge_numbers(graph, e, numbers);
+    layers[0].weight[e] = mean_information(type, type.translation, numbers);
+    layers[1].weight[e] = mean_information(type, type.rotation, numbers) * type.rotation_scale;
+    layers[0].multiplicity = std::max<double>(layers[0].multiplicity, type.translation.size);
+    layers[1].multiplicity = std::max<double>(layers[1].multiplicity, type.rotation.size);
+  }
+  return layers;
+}
+
+}  // namespace
+
+std::optional<TreeWeights> tree_weights(std::string_view name) {
+  constexpr std::array<std::string_view, 4> names{"unit", "translation", "rotation", "dopt"};
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it == names.end()) return std::nullopt;
+  return static_cast<TreeWeights>(it - names.begin());
+}
+
+TreeNodes tree_nodes(const Graph& graph) {
+  TreeNodes nodes{0, std::vector<Index>(graph.vertices(), -1)};
+  Index constants = -1;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.fixed[v] && constants >= 0) {
+      nodes.node[v] = constants;
+      continue;
+    }
+    if (graph.fixed[v]) constants = nodes.count;
+    nodes.node[v] = nodes.count++;
+  }
+  return nodes;
+}
+
+std::vector<TreeLayer> tree_layers(const Graph& graph, TreeWeights kind) {
+  if (kind == TreeWeights::unit) return {unit_layer(graph)};
+  auto [translation, rotation] = information_layers(graph);
+  if (kind == TreeWeights::dopt) return {std::move(translation), std::move(rotation)};
+  TreeLayer& chosen = kind == TreeWeights::translation ? translation : rotation;
+  chosen.multiplicity = 1;
+  return {std::move(chosen)};
+}
+
+}  // namespace sg

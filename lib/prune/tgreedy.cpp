@@ -1,0 +1,228 @@
+#include "lib/prune/tgreedy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <set>
+
+#include "lib/elim/trees.h"
+#include "lib/graph/error.h"
+
+namespace sg {
+namespace {
+
+// Gains that differ by rounding errors alone become equal.
+double rounded(double gain) {
+  int exponent = 0;
+  const double mantissa = std::frexp(gain, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, 30)), exponent - 30);
+}
+
+// What a candidate is worth; `version` counts the links of the graph in which it was computed.
+struct Worth {
+  int joins;  // layers in which it joins two parts
+  double gain;
+  Index edge;
+  std::int64_t version;
+  bool operator<(const Worth& other) const {
+    if (joins != other.joins) return joins < other.joins;
+    if (gain != other.gain) return gain < other.gain;
+    return edge > other.edge;
+  }
+};
+
+struct Layer {
+  double multiplicity;
+  std::vector<double> weight;  // by edge
+  SpanningTrees trees;
+};
+
+struct Greedy {
+  std::vector<Link> link;  // by edge; u == v where it links nothing
+  std::vector<Layer> layers;
+  std::priority_queue<Worth> waiting;
+  std::int64_t version = 0;
+  std::vector<Accepted> accepted;
+};
+
+// Links of an edge of more than two vertices: from the first to each of the others.
+void links_of(const Graph& graph, const TreeNodes& nodes, Index e, std::vector<Link>& links) {
+  const auto ends = graph.edge(e);
+  links.clear();
+  for (std::size_t k = 1; k < ends.size(); ++k)
+    links.push_back({nodes.node[ends[0]], nodes.node[ends[k]]});
+}
+
+Link candidate_link(const Graph& graph, const TreeNodes& nodes, Index e) {
+  const auto ends = graph.edge(e);
+  if (ends.size() == 2) return {nodes.node[ends[0]], nodes.node[ends[1]]};
+  throw error_at(graph, graph.edge_line[e],
+                 graph.type_of_edge(e).tag + " joins " + std::to_string(ends.size()) +
+                     " vertices: only edges of two can be candidates for spanning trees");
+}
+
+// The links of every edge, flat; those of candidates are one each.
+struct EdgeLinks {
+  std::vector<std::size_t> begin{0};  // m + 1
+  std::vector<Link> links;
+};
+EdgeLinks edge_links(const Graph& graph, const TreeNodes& nodes) {
+  EdgeLinks result;
+  std::vector<Link> links;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    links_of(graph, nodes, e, links);
+    result.links.insert(result.links.end(), links.begin(), links.end());
+    result.begin.push_back(result.links.size());
+  }
+  return result;
+}
+
+void require_weights(const Graph& graph, const std::vector<Index>& candidates,
+                     const std::vector<TreeLayer>& layers) {
+  for (const TreeLayer& layer : layers) {
+    if (std::any_of(candidates.begin(), candidates.end(),
+                    [&](Index e) { return layer.weight[e] > 0; }))
+      return;
+  }
+  if (!candidates.empty())
+    throw input_error(graph.file, 0, "no candidate has a weight of this kind: all are zero");
+}
+
+// The graph of the edges marked `present`, on a pattern of all.
+Greedy start(const Graph& graph, const EdgeLinks& all, const TreeNodes& nodes,
+             const std::vector<Index>& candidates, TreeWeights kind,
+             const std::vector<bool>& present) {
+  Greedy greedy;
+  greedy.link.assign(graph.edges(), {0, 0});
+  for (Index e : candidates) greedy.link[e] = candidate_link(graph, nodes, e);
+  std::vector<TreeLayer> layers = tree_layers(graph, kind);
+  require_weights(graph, candidates, layers);
+  for (TreeLayer& layer : layers) {
+    std::vector<double> weight(all.links.size(), 0);
+    for (Index e = 0; e < graph.edges(); ++e) {
+      for (std::size_t k = all.begin[e]; k < all.begin[e + 1]; ++k)
+        weight[k] = present[e] ? layer.weight[e] : 0;
+    }
+    SpanningTrees trees = spanning_trees(nodes.count, all.links, weight);
+    greedy.layers.push_back({layer.multiplicity, std::move(layer.weight), std::move(trees)});
+  }
+  return greedy;
+}
+
+Worth worth(Greedy& greedy, Index e) {
+  Worth result{0, 0, e, greedy.version};
+  for (Layer& layer : greedy.layers) {
+    if (layer.weight[e] <= 0) continue;
+    result.joins += !joined(layer.trees, greedy.link[e]);
+    result.gain += layer.multiplicity * gain(layer.trees, greedy.link[e], layer.weight[e]);
+  }
+  result.gain = rounded(result.gain);
+  return result;
+}
+
+void offer(Greedy& greedy, Index e) {
+  const int all = static_cast<int>(greedy.layers.size());
+  greedy.waiting.push({all, HUGE_VAL, e, -1});
+}
+
+void accept(Greedy& greedy, const Worth& chosen) {
+  Accepted step{chosen.edge, chosen.joins > 0, 0, 0};
+  for (Layer& layer : greedy.layers) {
+    const double weight = layer.weight[chosen.edge];
+    if (weight > 0)
+      step.gain += layer.multiplicity * add_link(layer.trees, greedy.link[chosen.edge], weight);
+    step.criterion += layer.multiplicity * layer.trees.log_trees;
+  }
+  ++greedy.version;
+  greedy.accepted.push_back(step);
+}
+
+// Accepts the best of those that wait until `total` are accepted.
+void spend(Greedy& greedy, std::size_t total) {
+  while (greedy.accepted.size() < total && !greedy.waiting.empty()) {
+    Worth top = greedy.waiting.top();
+    greedy.waiting.pop();
+    if (top.version != greedy.version) {
+      top = worth(greedy, top.edge);
+      if (!greedy.waiting.empty() && top < greedy.waiting.top()) {
+        greedy.waiting.push(top);
+        continue;
+      }
+    }
+    accept(greedy, top);
+  }
+}
+
+// Edges by the batch of the replay that they come with; those that never enter come last.
+ByStep by_batch(const Graph& graph, const PoseIndex& poses, Index batch) {
+  const Replay steps = replay(graph, poses);
+  const Index batches = std::max<Index>(1, (steps.steps + batch - 1) / batch);
+  std::vector<Index> when(graph.edges());
+  for (Index e = 0; e < graph.edges(); ++e)
+    when[e] = steps.edge_step[e] < 0 ? batches - 1 : steps.edge_step[e] / batch;
+  return by_step(when, batches);
+}
+
+}  // namespace
+
+std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
+                              std::size_t count, TreeWeights weights) {
+  const TreeNodes nodes = tree_nodes(graph);
+  const EdgeLinks all = edge_links(graph, nodes);
+  std::vector<bool> present(graph.edges(), true);
+  for (Index e : candidates) present[e] = false;
+  Greedy greedy = start(graph, all, nodes, candidates, weights, present);
+  for (Index e : candidates) offer(greedy, e);
+  spend(greedy, count);
+  return std::move(greedy.accepted);
+}
+
+std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
+                                     const std::vector<Index>& candidates, std::size_t count,
+                                     TreeWeights weights, Index batch) {
+  const TreeNodes nodes = tree_nodes(graph);
+  const EdgeLinks all = edge_links(graph, nodes);
+  Greedy greedy =
+      start(graph, all, nodes, candidates, weights, std::vector<bool>(graph.edges(), false));
+  std::vector<bool> candidate(graph.edges(), false);
+  for (Index e : candidates) candidate[e] = true;
+  const ByStep edges = by_batch(graph, poses, batch);
+  count = std::min(count, candidates.size());
+  std::size_t seen = 0;
+  for (std::size_t k = 0; k + 1 < edges.begin.size(); ++k) {
+    for (Index e : edges[static_cast<Index>(k)]) {
+      if (candidate[e]) {
+        offer(greedy, e);
+        ++seen;
+        continue;
+      }
+      for (Layer& layer : greedy.layers) {
+        for (std::size_t at = all.begin[e]; at < all.begin[e + 1] && layer.weight[e] > 0; ++at)
+          add_link(layer.trees, all.links[at], layer.weight[e]);
+      }
+      ++greedy.version;
+    }
+    if (seen > 0) spend(greedy, (2 * count * seen + candidates.size()) / (2 * candidates.size()));
+  }
+  return std::move(greedy.accepted);
+}
+
+Index pose_parts(const Graph& graph, const PoseIndex& poses,
+                 const std::vector<bool>& edge_removed) {
+  std::vector<Index> part(graph.vertices());
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](Index v) {
+    while (part[v] != v) v = part[v] = part[part[v]];
+    return v;
+  };
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (edge_removed[e]) continue;
+    for (Index v : graph.edge(e)) part[root(v)] = root(graph.edge(e)[0]);
+  }
+  std::set<Index> roots;
+  for (Index v : poses.pose) roots.insert(root(v));
+  return static_cast<Index>(roots.size());
+}
+
+}  // namespace sg
