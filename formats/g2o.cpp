@@ -127,11 +127,19 @@ void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_vie
   graph.edge_begin.push_back(static_cast<Index>(parser.edge_ids.small.size()));
 }
 
+void parse_param(Parser& parser, Offset at, std::string_view tag, std::string_view rest) {
+  const Id id = read_id(rest, "a parameter id");
+  check_numbers(rest, 0, tag);
+  parser.graph.params.push_back({id, at});
+}
+
 void parse_fix(Parser& parser, Offset at, std::string_view rest) {
+  std::vector<Fix> fixes;
   do {
-    parser.fixes.push_back({read_id(rest, "a vertex id"), at});
+    fixes.push_back({read_id(rest, "a vertex id"), at});
     while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
   } while (!rest.empty());
+  parser.fixes.insert(parser.fixes.end(), fixes.begin(), fixes.end());
   parser.graph.fix_lines.push_back(at);
 }
 
@@ -162,8 +170,7 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
     case LineKind::fix:
       return parse_fix(parser, at, rest);
     case LineKind::param:
-      parser.graph.params.push_back({read_id(rest, "a parameter id"), at});
-      return check_numbers(rest, 0, tag);
+      return parse_param(parser, at, tag, rest);
     case LineKind::data:
       return;
   }

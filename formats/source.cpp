@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <boost/iostreams/copy.hpp>
 #include <boost/iostreams/device/array.hpp>
 #include <boost/iostreams/device/back_inserter.hpp>
@@ -11,12 +13,14 @@
 #include <boost/iostreams/filter/zstd.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <sstream>
+#include <stdexcept>
 
 #include "formats/formats.h"
 
@@ -35,11 +39,47 @@ std::string unpack(std::string_view packed) {
   return text;
 }
 
+// Takes `count` bytes off the front, as a little-endian number. Of more than there are: an error.
+std::uint64_t take(std::string_view& bytes, std::size_t count) {
+  if (bytes.size() < count) throw std::runtime_error("it ends early");
+  std::uint64_t value = 0;
+  for (std::size_t k = std::min<std::size_t>(count, 8); k-- > 0;)
+    value = value << 8 | static_cast<unsigned char>(bytes[k]);
+  bytes.remove_prefix(count);
+  return value;
+}
+
+// Throws unless every zstd frame ends (RFC 8878, section 3): the decompressor takes a truncated
+// file for a short one.
+void check_zstd_frames(std::string_view bytes) {
+  while (!bytes.empty()) {
+    if ((take(bytes, 4) & 0xFFFFFFF0U) == 0x184D2A50U) {  // a frame to be skipped
+      take(bytes, take(bytes, 4));
+      continue;
+    }
+    const auto descriptor = take(bytes, 1);
+    const bool single_segment = (descriptor & 0x20U) != 0;
+    constexpr std::array<std::size_t, 4> dictionary_id{0, 1, 2, 4};
+    const std::array<std::size_t, 4> content_size{single_segment ? 1U : 0U, 2, 4, 8};
+    take(bytes, (single_segment ? 0 : 1) + dictionary_id[descriptor & 3U] +
+                    content_size[descriptor >> 6U]);
+    for (bool last = false; !last;) {
+      const auto block = take(bytes, 3);
+      const bool repeated_byte = (block >> 1U & 3U) == 1;
+      take(bytes, repeated_byte ? 1 : block >> 3U);
+      last = (block & 1U) != 0;
+    }
+    if ((descriptor & 4U) != 0) take(bytes, 4);  // a checksum
+  }
+}
+
 Text unpacked(Text text, const std::string& path) {
   try {
     if (text.view.starts_with("\x1f\x8b")) return text_of(unpack<io::gzip_decompressor>(text.view));
-    if (text.view.starts_with("\x28\xb5\x2f\xfd"))
+    if (text.view.starts_with("\x28\xb5\x2f\xfd")) {
+      check_zstd_frames(text.view);
       return text_of(unpack<io::zstd_decompressor>(text.view));
+    }
   } catch (const std::exception& error) {
     throw input_error(path, 0, std::string("the compressed data is damaged: ") + error.what());
   }

@@ -155,3 +155,28 @@ TEST_CASE("public iSAM files have the published elimination complexity", "[forma
   const Order order = elimination_order("colamd", pattern.pattern, order_options(graph, pattern));
   CHECK(to_string(elimination_complexity(pattern.pattern, order)) == ec);
 }
+
+TEST_CASE("a defective line leaves nothing behind", "[formats]") {
+  ReadOptions options;
+  int defects = 0;
+  options.complaint = [&](const Error&) { ++defects; };
+  const Graph graph = read_graph_text(
+      text_of("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 x\nPARAMS_SE2OFFSET 0 1 x 0\nFIX 0 x\n"
+              "EDGE_SE2 0 0 1 0 0 1 0 0 1 0 x\nEDGE_SE2_LOTSOFXY 0 3 0 0\n"),
+      "test", options);
+  CHECK(defects == 5);
+  CHECK(graph.vertices() == 1);
+  CHECK(graph.edges() == 0);
+  CHECK(graph.edge_begin == std::vector<Index>{0});
+  CHECK(graph.params.empty());
+  CHECK_FALSE(graph.fixed[0]);
+}
+
+TEST_CASE("counted edges with absurd counts are defects, not allocations", "[formats]") {
+  for (const std::string count : {"3000000000", "9223372036854775807", "715827883"}) {
+    const auto messages =
+        complaints_of("VERTEX_SE2 0 0 0 0\nEDGE_SE3_LOTSOF_XYZ 0 " + count + " 1");
+    REQUIRE(messages.size() == 1);
+    CHECK(messages[0] == "test:2: the line ends before its " + count + " vertex ids");
+  }
+}

@@ -1,0 +1,171 @@
+load ../common
+
+# What no command may get wrong. Each of these reads a graph; each of the filters writes one as well.
+readers='sg-info sg-ec sg-convert sg-bayes sg-order'
+filters=('sg-cut --largest' 'sg-order -m id' 'sg-dec -r 2' 'sg-rand -r 2' 'sg-kf -r 2')
+
+setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
+
+# refuse MESSAGE: of in.g2o, every reader says so and ends with 1; sg-check finds it.
+refuse() {
+  for reader in $readers; do fails 1 "$reader: in.g2o:$1" "$reader" in.g2o || return; done
+  code=0
+  sg-check in.g2o >found || code=$?
+  [ $code = 1 ] && [[ $(cat found) == *"in.g2o:${1%% *} error: ${1#* }"* ]]
+}
+
+# alone FILE...: the folder holds these files and no others.
+alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; }; }
+
+@test "malformed numbers" {
+  printf 'VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0.5.1 0\n' >in.g2o
+  refuse "2: '0.5.1' is not a number"
+  printf 'VERTEX_SE2 zero 0 0 0\n' >in.g2o
+  refuse "1: 'zero' is not a vertex id"
+  printf 'VERTEX_SE2 -1 0 0 0\n' >in.g2o
+  refuse "1: '-1' is not a vertex id"
+  printf 'VERTEX_SE2 0 1,5 0 0\n' >in.g2o
+  refuse "1: '1,5' is not a number"
+}
+
+@test "a truncated last line" {
+  head -c -8 walk.g2o >in.g2o  # in its last numbers
+  refuse "20: EDGE_SE2 wants 9 numbers here, the line has 7"
+  { head -n 19 walk.g2o; printf 'EDGE_SE2 4'; } >in.g2o
+  refuse "20: the line ends before a vertex id"
+  { head -n 19 walk.g2o; printf 'EDGE_S'; } >in.g2o
+  refuse "20: unknown tag 'EDGE_S' (--vertex and --edge teach a new one)"
+}
+
+@test "an unknown tag" {
+  { cat walk.g2o; echo 'EDGE_MINE 0 1 5'; } >in.g2o
+  refuse "21: unknown tag 'EDGE_MINE' (--vertex and --edge teach a new one)"
+  sg-check --edge EDGE_MINE:2 in.g2o
+}
+
+@test "an edge to a missing vertex" {
+  { cat walk.g2o; echo 'EDGE_SE2 4 42 1 0 0 1 0 0 1 0 1'; } >in.g2o
+  refuse "21: EDGE_SE2 joins vertex 42, which the file does not define"
+}
+
+@test "a duplicate vertex" {
+  { cat walk.g2o; echo 'VERTEX_SE2 3 0 0 0'; } >in.g2o
+  refuse "21: vertex 3 is defined a second time"
+}
+
+@test "an id beyond 64 bits, and the largest that is not" {
+  printf 'VERTEX_SE2 9223372036854775808 0 0 0\n' >in.g2o
+  refuse "1: '9223372036854775808' is beyond 64 bits, too large for a vertex id"
+  printf 'VERTEX_SE2 9223372036854775807 0 0 0\n' >in.g2o
+  [ "$(sg-info -f id_max --no-header in.g2o)" = "id_max	9223372036854775807" ]
+}
+
+@test "an empty file, one without a graph, and an upstream that failed" {
+  : >in.g2o
+  refuse " there is no vertex and no edge in it"
+  printf '# nothing\n\n\r\n' >in.g2o
+  refuse " there is no vertex and no edge in it"
+  [ "$(sg-cut --largest missing.g2o 2>/dev/null | sg-ec 2>&1)" = "sg-ec: <stdin>: there is no vertex and no edge in it" ]
+}
+
+@test "a directory and a missing file as input" {
+  mkdir folder
+  for reader in $readers sg-check; do
+    fails 1 "$reader: folder: Is a directory" "$reader" folder
+    fails 1 "$reader: missing.g2o: No such file or directory" "$reader" missing.g2o
+  done
+}
+
+@test "bytes that are no text" {
+  printf 'VERTEX_SE2 0 0 \0 0\n' >in.g2o
+  refuse "1: '?' is not a number"
+  printf '\001\002\0\003\377 1 2' >in.g2o
+  fails 1 "sg-info: in.g2o:1: unknown tag '????"$'\377'"' (--vertex and --edge teach a new one)" sg-info in.g2o
+}
+
+@test "damaged compressed files" {
+  gzip -c walk.g2o | head -c 100 >in.g2o
+  code=0
+  said=$(sg-info in.g2o 2>&1) || code=$?
+  [ $code = 1 ] && [[ $said == "sg-info: in.g2o: the compressed data is damaged: "* ]]
+  if command -v zstd >/dev/null; then
+    zstd -qc walk.g2o | head -c 100 >in.g2o
+    code=0
+    said=$(sg-info in.g2o 2>&1) || code=$?
+    [ $code = 1 ] && [[ $said == "sg-info: in.g2o: the compressed data is damaged: "* ]]
+  fi
+}
+
+@test "a rate of 0 or -1" {
+  for command in 'sg-dec -r' 'sg-rand -r' 'sg-kf -r' 'sg-cut --poses'; do
+    for rate in 0 -1; do
+      code=0
+      said=$($command $rate walk.g2o 2>&1 >out) || code=$?
+      [ $code = 2 ] && [ ! -s out ] && [ "$(wc -l <<<"$said")" = 1 ] && [[ $said == "${command%% *}: "* ]] ||
+        { echo "$command $rate: status $code, $said" >&2; return 1; }
+    done
+  done
+}
+
+@test "a full disk" {
+  [ -c /dev/full ] || skip "no /dev/full here"
+  for filter in "${filters[@]}"; do
+    fails 3 "${filter%% *}: /dev/full: cannot write: No space left on device" $filter -o /dev/full walk.g2o
+    fails 3 "${filter%% *}: <stdout>: cannot write: No space left on device" \
+      bash -c "exec $filter walk.g2o 3>&1 >/dev/full"
+  done
+  alone walk.g2o
+}
+
+@test "an output in a missing folder, or a folder itself" {
+  for filter in "${filters[@]}"; do
+    fails 3 "${filter%% *}: no/out.g2o: cannot create: No such file or directory" $filter -o no/out.g2o walk.g2o
+    fails 3 "${filter%% *}: .: cannot open: Is a directory" $filter -o . walk.g2o
+  done
+  alone walk.g2o
+}
+
+@test "a failure leaves the output as it was, and nothing beside it" {
+  echo before >out.g2o
+  { cat walk.g2o; echo 'EDGE_SE2 4 42 1 0 0 1 0 0 1 0 1'; } >in.g2o
+  for filter in "${filters[@]}"; do
+    code=0
+    $filter -o out.g2o in.g2o 2>/dev/null || code=$?
+    [ $code = 1 ] && [ "$(cat out.g2o)" = before ]
+  done
+  alone in.g2o out.g2o walk.g2o
+}
+
+@test "the output may be the input" {
+  cp walk.g2o in.g2o
+  sg-order -m amd walk.g2o >wanted.g2o
+  sg-order -m amd -o in.g2o in.g2o
+  cmp <(grep -v '^# sg-order -m' wanted.g2o) <(grep -v '^# sg-order -m' in.g2o)
+  alone in.g2o walk.g2o wanted.g2o
+}
+
+@test "a closed standard output does not take the place of the file" {
+  sg-cut --largest -o out.g2o <walk.g2o >&-
+  [ "$(sg-info -f edges --no-header out.g2o)" = "edges	11" ]
+}
+
+@test "a reader that closes the pipe ends a command quietly" {
+  { cat walk.g2o; seq -f 'EDGE_PRIOR_SE2 0 0 0 %g 1 0 0 1 0 1' 100000; } >in.g2o
+  for filter in "${filters[@]}"; do
+    $filter in.g2o 2>said | head -n 1 >first || true
+    code=0
+    bash -o pipefail -c "$filter in.g2o | head -n 1" >/dev/null 2>said || code=$?
+    [ $code = 0 ] && [ ! -s said ] || { echo "$filter: status $code, $(cat said)" >&2; return 1; }
+  done
+}
+
+@test "a filter that removes nothing gives the same bytes" {
+  { printf '# head\r\n\n \tVERTEX_SE2 0 0 0 0\r\nROBOTLASER1 0 1 2\nVERTEX_SE2  1 1e0 +0 -0\nFIX 0 0\r\n# between\n'
+    printf 'VERTEX_XY 9 1 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\r\n\r\nEDGE_SE2_XY 0 9 1 1 1 0 1\nEDGE_SE2_XY 1 9 0 1 1 0 1'; } >in.g2o
+  for filter in 'sg-cut --largest' 'sg-dec -r 1' 'sg-rand -p 1' 'sg-kf -r 1' 'sg-convert'; do
+    option=--no-trace-comment
+    [ "$filter" != sg-convert ] || option=
+    $filter $option in.g2o >out.g2o
+    cmp in.g2o out.g2o || { echo "$filter" >&2; return 1; }
+  done
+}
