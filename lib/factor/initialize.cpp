@@ -33,32 +33,6 @@ int free_end(const Graph& graph, const std::vector<bool>& placed, Index e, Index
   return end;
 }
 
-// The point nearest to all rays, if they meet at an angle and ahead of every observer.
-bool triangulate(std::span<const Ray> rays, int dim, double* out) {
-  Eigen::MatrixXd A(0, dim);
-  Eigen::VectorXd b(0);
-  for (const Ray& ray : rays) {
-    for (int k = 0; k < ray.rows; ++k) {
-      A.conservativeResize(A.rows() + 1, dim);
-      b.conservativeResize(A.rows());
-      for (int i = 0; i < dim; ++i) A(A.rows() - 1, i) = ray.row[k][i];
-      b[A.rows() - 1] = ray.row[k][3];
-    }
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(1e-3);
-  qr.compute(A);
-  if (qr.rank() < dim) return false;
-  const Eigen::VectorXd point = qr.solve(b);
-  for (const Ray& ray : rays) {
-    double ahead = 0;
-    for (int i = 0; i < dim; ++i) ahead += ray.ahead[i] * (point[i] - ray.origin[i]);
-    if (ahead <= 0) return false;
-  }
-  std::copy_n(point.data(), dim, out);
-  return true;
-}
-
 bool place_by_rays(const Problem& problem, Index v, std::span<const Index> edges,
                    const std::vector<bool>& placed, Values& values) {
   std::vector<Ray> rays;
@@ -66,8 +40,7 @@ bool place_by_rays(const Problem& problem, Index v, std::span<const Index> edges
     const Model& model = *problem.model[e];
     if (!model.rays || free_end(*problem.graph, placed, e, v) < 0) continue;
     if (problem.graph->role(v) != Role::landmark) continue;
-    const Ends x = estimates(problem, values, e);
-    rays.push_back(model.rays(x.data(), problem.constants.data() + problem.constants_at[e]));
+    rays.push_back(ray_of(problem, e, values));
   }
   if (rays.empty()) return false;
   const int dim = problem.graph->dim(v);
@@ -166,6 +139,36 @@ void place_all(Spread& spread) {
 }
 
 }  // namespace
+
+Ray ray_of(const Problem& problem, Index e, const Values& values) {
+  const Ends x = estimates(problem, values, e);
+  return problem.model[e]->rays(x.data(), problem.constants.data() + problem.constants_at[e]);
+}
+
+bool triangulate(std::span<const Ray> rays, int dim, double* out) {
+  Eigen::MatrixXd A(0, dim);
+  Eigen::VectorXd b(0);
+  for (const Ray& ray : rays) {
+    for (int k = 0; k < ray.rows; ++k) {
+      A.conservativeResize(A.rows() + 1, dim);
+      b.conservativeResize(A.rows());
+      for (int i = 0; i < dim; ++i) A(A.rows() - 1, i) = ray.row[k][i];
+      b[A.rows() - 1] = ray.row[k][3];
+    }
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-3);
+  qr.compute(A);
+  if (qr.rank() < dim) return false;
+  const Eigen::VectorXd point = qr.solve(b);
+  for (const Ray& ray : rays) {
+    double ahead = 0;
+    for (int i = 0; i < dim; ++i) ahead += ray.ahead[i] * (point[i] - ray.origin[i]);
+    if (ahead <= 0) return false;
+  }
+  std::copy_n(point.data(), dim, out);
+  return true;
+}
 
 bool place_vertex(const Problem& problem, Index v, std::span<const Index> edges,
                   const std::vector<bool>& placed, Values& values) {

@@ -25,6 +25,12 @@ Values initial_values(const Problem& problem);
 // starts.
 Values start_values(const Problem& problem);
 
+// The ray along which edge e, of a type that has one, sees its landmark.
+Ray ray_of(const Problem& problem, Index e, const Values& values);
+// The point nearest to all rays, in `dim` dimensions, if they meet at an angle and ahead of every
+// observer.
+bool triangulate(std::span<const Ray> rays, int dim, double* out);
+
 // Places vertex v by those of `edges` (edges at v, in order of preference) whose other ends are
 // placed. False, and values untouched, where none of them tells.
 bool place_vertex(const Problem& problem, Index v, std::span<const Index> edges,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "lib/solve/clique_tree.h"
+#include "lib/solve/landmark_point.h"
 
 namespace sg {
 namespace {
@@ -64,9 +66,15 @@ void linearize(Isam2& isam, Index r) {
   kernels().gram(block, h, w, gram, gram + w * w + lane);
   std::copy_n(gram, w * w, isam.grams.data() + isam.gram_at[r]);
   isam.row_update[r] = isam.updates;
+  const double damping = r < isam.problem->graph->edges() && sees_along_ray(*isam.problem, r)
+                             ? ray_damping(*isam.problem, r, isam.linearized)
+                             : 0;
   int column = 0;
   for (Index j : pattern.row(r)) {
+    const bool damped =
+        isam.problem->graph->role(isam.problem->variables.variable_vertex[j]) == Role::landmark;
     for (int k = 0; k < pattern.dim[j]; ++k, ++column) {
+      if (damped) isam.grams[isam.gram_at[r] + column * (w + 1)] += damping;
       double& floor = isam.floor[isam.problem->step_at[j] + k];
       floor = std::max(floor, vanishing * gram[column * (w + 1)]);
     }
@@ -87,26 +95,50 @@ void remove_up(Isam2& isam, Index c) {
   }
 }
 
+// Moves the linearization point of a variable by its step.
+void move_point(Isam2& isam, Index j) {
+  const Problem& problem = *isam.problem;
+  const Index v = problem.variables.variable_vertex[j];
+  const auto rows = isam.rows_of[j];
+  std::vector<Index>& edges = isam.work.edges;
+  edges.clear();
+  std::ranges::copy_if(rows, std::back_inserter(edges), [&](Index r) {
+    return isam.row_clique[r] >= 0 && r < problem.graph->edges();
+  });
+  double* const point = isam.linearized.data() + problem.value_at[v];
+  const bool by_rays =
+      problem.graph->role(v) == Role::landmark &&
+      std::ranges::any_of(edges, [&](Index e) { return sees_along_ray(problem, e); });
+  if (by_rays) {
+    const std::span<const double> step(isam.step.data() + problem.step_at[j],
+                                       static_cast<std::size_t>(pattern_of(isam).dim[j]));
+    move_landmark(problem, v, edges, step, isam.estimate, point);
+  } else {
+    std::copy(isam.estimate.begin() + problem.value_at[v],
+              isam.estimate.begin() + problem.value_at[v + 1], point);
+  }
+  std::fill(isam.step.begin() + problem.step_at[j], isam.step.begin() + problem.step_at[j + 1],
+            0.0);
+}
+
 // Moves the linearization points of the variables that have gone too far, linearizes their rows
 // again, and takes out the cliques in which these stand. Returns how many variables moved.
 Index relinearize(Isam2& isam) {
   if (isam.options.relinearize_skip <= 0 || isam.updates % isam.options.relinearize_skip != 0)
     return 0;
-  const Problem& problem = *isam.problem;
   std::vector<Index>& moved = isam.work.variables;
   moved.clear();
   for (Index j : isam.candidates) {
     isam.moved[j] = false;
     if (largest(isam, j) < isam.options.relinearize_threshold) continue;
-    const Index v = problem.variables.variable_vertex[j];
-    std::copy(isam.estimate.begin() + problem.value_at[v],
-              isam.estimate.begin() + problem.value_at[v + 1],
-              isam.linearized.begin() + problem.value_at[v]);
-    std::fill(isam.step.begin() + problem.step_at[j], isam.step.begin() + problem.step_at[j + 1],
-              0.0);
+    move_point(isam, j);
     moved.push_back(j);
   }
   isam.candidates.clear();
+  for (Index j : moved) {  // all their rows are linearized anew
+    std::fill(isam.floor.begin() + isam.problem->step_at[j],
+              isam.floor.begin() + isam.problem->step_at[j + 1], 0.0);
+  }
   for (Index j : moved) {
     remove_up(isam, isam.clique[j]);
     for (Index r : isam.rows_of[j]) {

@@ -86,7 +86,7 @@ struct Isam2 {
 
   // Scratch of an update; kept so that nothing is allocated again.
   struct Work {
-    std::vector<Index> removed, orphans, variables, rows, last, stack, local, made;
+    std::vector<Index> removed, orphans, variables, rows, edges, last, stack, local, made;
     std::vector<int> row_at;
     std::vector<Run> runs;
     std::vector<double> numbers, floors;
