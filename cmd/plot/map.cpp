@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "cmd/plot/picture.h"
+#include "cmd/plot/scenes.h"
+#include "lib/factor/initialize.h"
+#include "lib/factor/space.h"
+#include "lib/graph/error.h"
+#include "lib/graph/replay.h"
+
+namespace sg {
+namespace {
+
+constexpr double margin = 24;
+
+struct Point {
+  double x, y;
+};
+
+// From metres to the page: one scale for both axes, the middle in the middle.
+struct Projection {
+  double scale;
+  Point middle;
+  Point centre;
+  Point operator()(const Point& p) const {
+    return {centre.x + scale * (p.x - middle.x), centre.y - scale * (p.y - middle.y)};
+  }
+};
+
+Projection fit(const std::vector<Point>& points, const PageSize& size) {
+  const auto [left, right] = std::minmax_element(
+      points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+  const double width = right->x - left->x;
+  const double height = high->y - low->y;
+  double scale = std::min((size.width - 2 * margin) / width, (size.height - 2 * margin) / height);
+  if (!std::isfinite(scale)) scale = 1;  // a single point
+  return {scale, {left->x + width / 2, low->y + height / 2}, {size.width / 2, size.height / 2}};
+}
+
+void draw_edges(cairo_t* page, const Graph& graph, const std::vector<EdgeRole>& roles,
+                EdgeRole role, const std::vector<Point>& at) {
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (roles[e] != role) continue;
+    const auto ends = graph.edge(e);
+    for (std::size_t k = 1; k < ends.size(); ++k) {
+      cairo_move_to(page, at[ends[0]].x, at[ends[0]].y);
+      cairo_line_to(page, at[ends[k]].x, at[ends[k]].y);
+    }
+  }
+  cairo_stroke(page);
+}
+
+void draw_dots(cairo_t* page, const Graph& graph, Role role, const std::vector<Point>& at) {
+  cairo_set_line_cap(page, CAIRO_LINE_CAP_ROUND);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) != role) continue;
+    cairo_move_to(page, at[v].x, at[v].y);
+    cairo_close_path(page);  // of no length: its caps are the dot
+  }
+  cairo_stroke(page);
+}
+
+// The largest of 1, 2, 5 times a power of ten that is no longer than `metres`.
+double round_length(double metres) {
+  const double power = std::pow(10, std::floor(std::log10(metres)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= metres) return digit * power;
+  }
+  return power;
+}
+
+void draw_scale_bar(cairo_t* page, const PageSize& size, double scale) {
+  const double metres = round_length(size.width / 5 / scale);
+  const double y = size.height - margin / 3;
+  set_color(page, {0, 0, 0});
+  cairo_set_line_width(page, 1.5);
+  cairo_move_to(page, margin, y);
+  cairo_line_to(page, margin + scale * metres, y);
+  cairo_stroke(page);
+  std::string label = std::to_string(metres);
+  label.erase(label.find_last_not_of('0') + 1);
+  if (label.back() == '.') label.pop_back();
+  cairo_set_font_size(page, 10);
+  cairo_move_to(page, margin + scale * metres + 4, y + 3);
+  cairo_show_text(page, (label + " m").c_str());
+}
+
+}  // namespace
+
+std::vector<std::array<double, 3>> positions(const Graph& graph) {
+  Problem problem;
+  Values values;
+  if (graph.edges_only) {
+    problem = make_problem(graph);
+    values = initial_values(problem);
+  }
+  std::vector<std::array<double, 3>> result(graph.vertices(), {0, 0, 0});
+  std::vector<double> numbers;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const std::string& tag = graph.type_of_vertex(v).tag;
+    const auto space = find_space(tag);
+    if (!space) throw error_at(graph, graph.vertex_line[v], tag + " has no place on a map");
+    if (graph.edges_only) {
+      numbers = estimate_numbers(problem, values, v);
+    } else {
+      vertex_numbers(graph, v, numbers);
+    }
+    const bool plane = *space == Space::se2 || *space == Space::xy;
+    std::copy_n(numbers.begin(), plane ? 2 : 3, result[v].begin());
+    for (const double x : result[v]) {
+      if (!std::isfinite(x)) throw error_at(graph, graph.vertex_line[v], "no finite position");
+    }
+  }
+  return result;
+}
+
+void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
+              const std::array<int, 2>& axes) {
+  std::vector<Point> points;
+  for (const auto& position : positions(graph)) {
+    points.push_back({position[axes[0]], position[axes[1]]});
+  }
+  const Projection project = fit(points, size);
+  std::transform(points.begin(), points.end(), points.begin(), project);
+  const std::vector<EdgeRole> roles = edge_roles(graph, pose_index(graph));
+  set_color(page, faint_color, 0.35);
+  cairo_set_line_width(page, 0.3);
+  draw_edges(page, graph, roles, EdgeRole::observation, points);
+  set_color(page, loop_color, 0.7);
+  cairo_set_line_width(page, 0.5);
+  draw_edges(page, graph, roles, EdgeRole::loop_closure, points);
+  set_color(page, path_color);
+  cairo_set_line_width(page, 0.8);
+  draw_edges(page, graph, roles, EdgeRole::odometry, points);
+  cairo_set_line_width(page, 1.6);
+  draw_dots(page, graph, Role::pose, points);
+  set_color(page, landmark_color);
+  cairo_set_line_width(page, 2.4);
+  draw_dots(page, graph, Role::landmark, points);
+  draw_scale_bar(page, size, project.scale);
+}
+
+}  // namespace sg

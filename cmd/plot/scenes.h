@@ -1,0 +1,37 @@
+// What sg-plot draws. Each scene fills a page of width x height points.
+#pragma once
+
+#include <cairo.h>
+
+#include <array>
+#include <vector>
+
+#include "lib/elim/score.h"
+#include "lib/graph/graph.h"
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+struct PageSize {
+  double width;
+  double height;
+};
+
+// Where every vertex is, as the file has it, or composed along odometry where it has edges only.
+// In the plane z is 0. Throws an input Error for a vertex type that has no known place.
+std::vector<std::array<double, 3>> positions(const Graph& graph);
+
+// The map, seen along the axis that is left when `axes` (of 0, 1, 2) go to the right and up: the
+// path in blue, loop closures in orange, landmarks in green, observations as faint lines. A bar
+// tells the scale.
+void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
+              const std::array<int, 2>& axes);
+
+// R in its order, rows and columns in scalars: what A^T A has in blue, fill in orange.
+void draw_pattern(cairo_t* page, const PageSize& size, const Pattern& pattern, const Order& order);
+
+// The Bayes tree, roots on top: a circle for every clique, its area in proportion to the clique's
+// dimension.
+void draw_tree(cairo_t* page, const PageSize& size, const Symbolic& symbolic);
+
+}  // namespace sg

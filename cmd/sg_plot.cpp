@@ -1,0 +1,79 @@
+// sg-plot: pictures of a graph.
+#include "cmd/common/command.h"
+#include "cmd/plot/picture.h"
+#include "cmd/plot/scenes.h"
+#include "lib/graph/error.h"
+#include "lib/order/order.h"
+
+namespace {
+
+struct Options {
+  std::string what;
+  sg::Input input;
+  sg::OutputOptions output;
+  std::string method;
+  std::string plane = "xy";
+  sg::PageSize size{600, 600};
+};
+
+void add_options(sg::Command& command, Options& options) {
+  auto& app = command.app;
+  app.add_option("WHAT", options.what,
+                 "map: where everything is\npattern: R and its fill\ntree: the Bayes tree")
+      ->required()
+      ->check(CLI::IsMember({"map", "pattern", "tree"}).description(""))
+      ->option_text(" ");
+  sg::add_input(command, options.input);
+  app.add_option("-m,--method", options.method,
+                 "Ordering, as sg-order has them. Default: the\n"
+                 "file's if sg-order left it there, else colamd")
+      ->option_text("METHOD");
+  app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
+      ->check(CLI::IsMember({"xy", "xz", "yz"}).description(""))
+      ->option_text("PLANE");
+  app.add_option("--width", options.size.width, "Of the picture, in points or pixels (600)")
+      ->check(CLI::Range(64, 20000).description(""))
+      ->option_text("N");
+  app.add_option("--height", options.size.height, "The same (600)")
+      ->check(CLI::Range(64, 20000).description(""))
+      ->option_text("N");
+  sg::add_output(command, options.output);
+}
+
+sg::Order order_of(const Options& options, const sg::Graph& graph,
+                   const sg::GraphPattern& variables) {
+  std::string method = options.method;
+  if (method.empty()) method = graph.order_method.empty() ? "colamd" : "file";
+  return sg::elimination_order(method, variables.pattern, sg::order_options(graph, variables));
+}
+
+void draw(cairo_t* page, const Options& options, const sg::Graph& graph) {
+  if (options.what == "map") {
+    const int right = options.plane[0] - 'x';
+    return sg::draw_map(page, options.size, graph, {right, options.plane[1] - 'x'});
+  }
+  const sg::GraphPattern variables = sg::graph_pattern(graph);
+  const sg::Order order = order_of(options, graph, variables);
+  if (options.what == "pattern") {
+    return sg::draw_pattern(page, options.size, variables.pattern, order);
+  }
+  sg::draw_tree(page, options.size, sg::symbolic(variables.pattern, order));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  sg::Command command("sg-plot", "Draw a graph, its factor, or its Bayes tree (svg, png, pdf).");
+  Options options;
+  add_options(command, options);
+  return sg::run(command, argc, argv, [&] {
+    const sg::PictureFormat format = sg::picture_format(options.output.path);
+    if (!options.method.empty()) sg::find_ordering(options.method);  // before a long read
+    const sg::Graph graph = sg::read(options.input);
+    const std::string bytes = sg::picture(format, options.size.width, options.size.height,
+                                          [&](cairo_t* page) { draw(page, options, graph); });
+    sg::Output output(options.output.path);
+    output.write(bytes);
+    output.commit();
+  });
+}

@@ -1,0 +1,73 @@
+load ../common
+
+setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
+
+# How many shapes of a colour an SVG picture has.
+shapes() { grep -c "$2" "$1" || true; }
+path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
+
+@test "a map shows path, loop closures and landmarks, and its scale" {
+  sg-plot map walk.g2o >map.svg
+  [ "$(shapes map.svg "$path")" -eq 2 ]  # odometry, poses
+  [ "$(shapes map.svg "$loop")" -eq 1 ]
+  [ "$(shapes map.svg "$landmark")" -eq 1 ]
+  # five poses a metre apart from margin to margin
+  grep -o 'M [0-9.]* 3[0-9.]* L [0-9.]* 3[0-9.]*' map.svg | head -n 1 | grep -qx 'M 576 [0-9.]* L 24 [0-9.]*'
+}
+
+@test "a map of edges alone is composed along odometry" {
+  sg-plot map walk.g2o >map.svg
+  grep -v -e VERTEX -e FIX walk.g2o | sg-plot map >edges.svg
+  [ "$(shapes edges.svg "$path")" -eq 2 ]
+  [ "$(shapes edges.svg "$landmark")" -eq 1 ]
+}
+
+@test "the pattern of R tells fill from the system" {
+  # 2 goes first and joins 1 and 3
+  printf '2\n1\n3\n' >order
+  printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >in.g2o
+  sg-order --apply order in.g2o | sg-plot pattern >fill.svg
+  [ "$(shapes fill.svg "$loop")" -eq 1 ]
+  sg-plot pattern -m id in.g2o >none.svg
+  [ "$(shapes none.svg "$loop")" -eq 0 ]
+  [ "$(shapes none.svg "$path")" -eq 1 ]
+}
+
+@test "the Bayes tree has a circle for every clique" {
+  printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >in.g2o
+  sg-plot tree -m id in.g2o >tree.svg  # {2 3} and below it {1}
+  [ "$(grep -o "fill:$path" tree.svg | wc -l)" -eq 2 ]
+}
+
+@test "svg, png and pdf, by the name of the file, the same each time" {
+  for what in map pattern tree; do
+    for kind in svg png pdf; do
+      sg-plot $what walk.g2o -o a.$kind
+      sg-plot $what walk.g2o -o b.$kind
+      cmp a.$kind b.$kind
+    done
+    head -c 5 a.svg | grep -q '<?xml'
+    head -c 4 a.png | grep -q PNG
+    head -c 4 a.pdf | grep -q '%PDF'
+  done
+  sg-plot map walk.g2o --width 200 --height 100 -o small.svg
+  grep -q 'viewBox="0 0 200 100"' small.svg
+}
+
+@test "a graph of one vertex, and one whose vertices are all fixed" {
+  printf 'VERTEX_SE2 1 5 5 0\n' >one.g2o
+  printf 'VERTEX_SE2 1 5 5 0\nFIX 1\n' >fixed.g2o
+  for what in map pattern tree; do
+    sg-plot $what one.g2o >/dev/null
+    sg-plot $what fixed.g2o >/dev/null
+  done
+}
+
+@test "what it cannot draw" {
+  printf 'VERTEX_X 1 5 5 0\n' >in.g2o
+  fails 1 "sg-plot: in.g2o:1: VERTEX_X has no place on a map" sg-plot map --vertex VERTEX_X:3:pose in.g2o
+  fails 2 "sg-plot: a picture's name ends in .svg, .png or .pdf; not so 'a.jpg' (see sg-plot --help)" \
+    sg-plot map walk.g2o -o a.jpg
+  fails 2 "sg-plot: WHAT: hat not in {map,pattern,tree} (see sg-plot --help)" sg-plot hat walk.g2o
+  fails 2 "sg-plot: WHAT is required (see sg-plot --help)" sg-plot
+}
