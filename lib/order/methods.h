@@ -9,6 +9,7 @@
 namespace sg::ordering {
 
 Order amd(const Pattern& pattern, const OrderOptions& options);
+Order best(const Pattern& pattern, const OrderOptions& options);
 Order colamd(const Pattern& pattern, const OrderOptions& options);
 Order file(const Pattern& pattern, const OrderOptions& options);
 Order id(const Pattern& pattern, const OrderOptions& options);

@@ -23,6 +23,7 @@ constexpr Ordering table[] = {
     {"rcm", "reverse Cuthill-McKee (Boost.Graph)", ordering::rcm},
     {"king", "King's profile reduction, reversed (Boost.Graph)", ordering::king},
     {"sloan", "Sloan's profile and wavefront reduction (Boost.Graph)", ordering::sloan},
+    {"best", "the best of all, improved until --budget is used up", ordering::best},
     {"random", "at random, by --seed", ordering::random},
 };
 

@@ -10,13 +10,29 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "lib/elim/score.h"
 #include "lib/graph/pattern.h"
 
 namespace sg {
+
+// How long an anytime ordering may go on: so many tries, or seconds where those are not 0.
+struct Budget {
+  int tries = 200;
+  double seconds = 0;
+};
+
+// A better order, as soon as an anytime ordering has found it.
+struct Improvement {
+  std::string_view how;  // a method's name, "restart" or "local"
+  int tries;             // so far
+  double seconds;        // so far
+  Wide ec;
+};
 
 // What an ordering may want to know beyond the pattern. Left empty, each field says nothing.
 struct OrderOptions {
@@ -24,6 +40,8 @@ struct OrderOptions {
   std::vector<Index> last;        // variables to be eliminated after all others, in any order
   std::vector<Index> file_order;  // all variables as the file lists them; empty: as numbered
   std::vector<bool> landmark;     // of every variable; empty: none is
+  Budget budget;                  // of best
+  std::function<void(const Improvement&)> report;  // of best; may be empty
 };
 
 struct Ordering {

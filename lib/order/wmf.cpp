@@ -114,12 +114,19 @@ std::vector<int> stages(Index n, const std::vector<Index>& last) {
   return stage;
 }
 
-// A pass of so little work per variable and adjacency entry costs so little that there is time for
-// another.
-constexpr std::int64_t cheap_work = 25;
-
 std::int64_t entries(const Adjacency& graph) {
   return static_cast<std::int64_t>(graph.neighbours.size()) + graph.size();
+}
+
+// The other pass that is worth its time, of the work of the first: plain fill where that was quick;
+// bounds alone where the graph is dense, since they take a clique at a time.
+bool another_pass(const Adjacency& graph, std::int64_t work, GreedyOptions& options) {
+  if (work <= 25 * entries(graph)) {
+    options.score = FillScore::plain;
+    return true;
+  }
+  options.exact_work = 0;
+  return entries(graph) > 20 * std::int64_t{graph.size()} && work <= 100 * entries(graph);
 }
 
 }  // namespace
@@ -152,8 +159,7 @@ Order wmf(const Pattern& pattern, const WmfOptions& options) {
   greedy.stage = stages(pattern.variables(), options.last);
   greedy.seed = options.seed;
   GreedyResult best = greedy_fill(pattern, graph, greedy);
-  if (best.work > cheap_work * entries(graph)) return std::move(best.order);
-  greedy.score = FillScore::plain;
+  if (!another_pass(graph, best.work, greedy)) return std::move(best.order);
   greedy.limit = best.ec;
   GreedyResult other = greedy_fill(pattern, graph, greedy);
   return other.ec < best.ec ? std::move(other.order) : std::move(best.order);

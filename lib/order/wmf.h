@@ -20,8 +20,8 @@
 // pay per variable that it removes from the graph, as in approximate minimum mean local fill
 // (Rothberg, Eisenstat); its factor sqrt(d + d_s) forgives fill among many neighbours, who would
 // soon have met anyhow. On SLAM graphs this takes a tenth off the EC of plain minimum fill, on
-// dense landmark graphs a third; plain fill is the better of the two on some sparse graphs, and is
-// tried as well where that is cheap. A variable of no fill (simplicial) scores 0 and goes at once,
+// dense landmark graphs a third; plain fill is the better of the two on some sparse graphs, bounds
+// alone (below) on some dense ones, and they are tried as well where that is cheap. A variable of no fill (simplicial) scores 0 and goes at once,
 // which some optimal order does too. Before v goes a neighbour of it that has no other neighbours
 // than v's, if that is cheaper (better_first in fill_graph.h): mass elimination, the right way
 // around. Ties go to the lowest index, or by seed.
@@ -59,7 +59,7 @@ struct GreedyOptions {
   std::vector<int> stage;  // of every variable: all of a lower stage go first; empty: one stage
   std::uint64_t seed = 0;  // 0: ties go to the lowest index; else to the lowest pseudo-random rank
   double jitter = 0;       // scores are multiplied by 1 + jitter u, u in [0, 1) drawn per variable
-  std::int64_t exact_work = 250;  // list entries looked at per variable and adjacency entry, in the
+  std::int64_t exact_work = 120;  // list entries looked at per variable and adjacency entry, in the
                                   // exact part
   Wide limit = ~Wide{0};          // give up as soon as EC is above
 };

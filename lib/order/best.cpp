@@ -1,0 +1,226 @@
+// The best order that a budget buys: an anytime portfolio.
+//
+// First all other methods of the table, each scored exactly. Then tries, in rounds of a fixed
+// number that run in parallel, of two kinds:
+//
+//   - restarts: a pass of greedy_fill (wmf.h) with random ties and jittered scores, given up as
+//     soon as it costs more than the best;
+//   - local improvement. In the elimination tree of the best order a root r is drawn, and a
+//     connected region R at the top of its subtree. No front outside R depends on the order inside
+//     R, as long as what hangs below R goes before it and what lies above after: what is eliminated
+//     by then is the same. So R is a problem of its own (region.h). Greedy passes reorder it, and
+//     what it gains there the whole order gains. Of one round, improvements whose subtrees are
+//     apart are all taken.
+//
+// A try depends on its number, the seed, and the best order at the start of its round, not on
+// threads or time: a budget in tries gives the same order everywhere.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "lib/order/methods.h"
+#include "lib/order/region.h"
+#include "lib/order/supervariables.h"
+#include "lib/order/wmf.h"
+
+namespace sg::ordering {
+namespace {
+
+constexpr int tries_a_round = 16;
+constexpr int restarts_at_first = 16;
+
+// Pseudo-random numbers of one try.
+struct Draw {
+  std::uint64_t state;
+  std::uint64_t below(std::uint64_t n) { return mix(++state) % n; }
+  double uniform() { return static_cast<double>(mix(++state) >> 11) * 0x1p-53; }
+};
+
+struct Clock {
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+};
+
+// What all tries of a round share.
+struct Search {
+  const Pattern& pattern;
+  const OrderOptions& options;
+  Adjacency graph;
+  std::vector<int> stage;  // 1 of the variables of `last`
+  Elimination best;
+  std::vector<double> cost;  // running sum of the costs of best's variables
+};
+
+struct Try {
+  Order order;                 // of a restart that is better; empty otherwise
+  Index begin = 0;             // positions that a local improvement reorders
+  std::vector<Index> subtree;  // empty without one
+  Wide gain = 0;
+};
+
+void take(Search& search, Elimination&& elimination) {
+  search.best = std::move(elimination);
+  search.cost.clear();
+  double sum = 0;
+  for (std::size_t k = 0; k < search.best.count.size(); ++k) {
+    sum += to_double(elimination_cost(search.best.rows.dim[k], search.best.count[k]));
+    search.cost.push_back(sum);
+  }
+}
+
+GreedyOptions drawn_options(Draw& draw) {
+  constexpr double jitters[] = {0, 0.1, 0.3, 1};
+  GreedyOptions options;
+  options.seed = draw.below(~std::uint64_t{0}) + 1;
+  options.jitter = jitters[draw.below(std::size(jitters))];
+  if (draw.below(4) == 0) options.score = FillScore::plain;
+  if (draw.below(8) == 0) options.exact_work = 0;
+  return options;
+}
+
+Try restart(const Search& search, Draw draw) {
+  GreedyOptions options = drawn_options(draw);
+  options.stage = search.stage;
+  options.limit = search.best.ec;
+  GreedyResult result = greedy_fill(search.pattern, search.graph, options);
+  Try found;
+  if (result.ec < search.best.ec) {
+    found.order = std::move(result.order);
+    found.gain = search.best.ec - result.ec;
+  }
+  return found;
+}
+
+// A position drawn in proportion to its cost, and from there up to a subtree of this size.
+Index drawn_root(const Search& search, Index size, Draw& draw) {
+  const double at = draw.uniform() * search.cost.back();
+  const auto drawn = std::upper_bound(search.cost.begin(), search.cost.end() - 1, at);
+  auto root = static_cast<Index>(drawn - search.cost.begin());
+  while (root - search.best.first[root] + 1 < size && search.best.parent[root] >= 0) {
+    root = search.best.parent[root];
+  }
+  return root;
+}
+
+// `last` after the others, and what lies above the region after that.
+std::vector<int> region_stages(const Search& search, const Region& region) {
+  std::vector<int> stage(region.pattern.variables(), 2);
+  for (std::size_t k = 0; k < region.inside.size(); ++k) {
+    stage[k] = search.stage[search.best.order[region.inside[k]]];
+  }
+  return stage;
+}
+
+Try local(const Search& search, Draw draw) {
+  const double largest = std::log2(std::max<double>(8, search.pattern.variables()));
+  const auto size = static_cast<Index>(std::exp2(3 + draw.uniform() * (largest - 3)));
+  const Region part = region(search.best, drawn_root(search, size, draw), size);
+  GreedyOptions options = drawn_options(draw);
+  options.stage = region_stages(search, part);
+  const Order order = greedy_fill(part.pattern, adjacency(part.pattern), options).order;
+  const Wide ec = region_ec(part, order);
+  Try found;
+  if (ec < part.ec) {
+    found.begin = search.best.first[part.root];
+    found.subtree = reordered_subtree(search.best, part, order);
+    found.gain = part.ec - ec;
+  }
+  return found;
+}
+
+Try one_try(const Search& search, int number) {
+  Draw draw{mix(search.options.seed) + mix(static_cast<std::uint64_t>(number))};
+  const bool from_scratch = number < restarts_at_first || draw.below(8) == 0;
+  return (from_scratch ? restart : local)(search, draw);
+}
+
+// The best order with all local improvements that are apart, the largest first.
+Order with_improvements(const Search& search, std::vector<Try>& tries) {
+  std::stable_sort(tries.begin(), tries.end(),
+                   [](const Try& a, const Try& b) { return a.gain > b.gain; });
+  Order order = search.best.order;
+  std::vector<char> touched(order.size(), false);
+  for (const Try& found : tries) {
+    const auto begin = touched.begin() + found.begin;
+    const auto end = begin + static_cast<std::ptrdiff_t>(found.subtree.size());
+    if (std::find(begin, end, true) != end) continue;
+    std::fill(begin, end, true);
+    std::copy(found.subtree.begin(), found.subtree.end(), order.begin() + found.begin);
+  }
+  return order;
+}
+
+void report(const Search& search, std::string_view how, int tries, const Clock& clock) {
+  if (!search.options.report) return;
+  search.options.report({how, tries, clock.seconds(), search.best.ec});
+}
+
+// Every other method; of equals the one that stands first in the table.
+void take_best_method(Search& search, const Clock& clock) {
+  std::vector<const Ordering*> methods;
+  for (const Ordering& method : orderings()) {
+    if (method.compute != best) methods.push_back(&method);
+  }
+  std::vector<Elimination> found(methods.size());
+  tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {
+    found[i] =
+        elimination(search.pattern, elimination_order(*methods[i], search.pattern, search.options));
+  });
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (i > 0 && found[i].ec >= search.best.ec) continue;
+    take(search, std::move(found[i]));
+    report(search, methods[i]->name, 0, clock);
+  }
+}
+
+// Whether the round improved the best.
+void take_round(Search& search, std::vector<Try>& tries, int done, const Clock& clock) {
+  const Wide before = search.best.ec;
+  const auto restarted =
+      std::max_element(tries.begin(), tries.end(), [](const Try& a, const Try& b) {
+        return (a.order.empty() ? 0 : a.gain) < (b.order.empty() ? 0 : b.gain);
+      });
+  const Order fresh = restarted->order;
+  Elimination improved = elimination(search.pattern, with_improvements(search, tries));
+  std::string_view how = "local";
+  if (!fresh.empty()) {
+    Elimination other = elimination(search.pattern, fresh);
+    if (other.ec < improved.ec) {
+      improved = std::move(other);
+      how = "restart";
+    }
+  }
+  if (improved.ec >= before) return;
+  take(search, std::move(improved));
+  report(search, how, done, clock);
+}
+
+}  // namespace
+
+Order best(const Pattern& pattern, const OrderOptions& options) {
+  const Clock clock;
+  Search search{pattern, options, adjacency(pattern), {}, {}, {}};
+  search.stage.assign(pattern.variables(), 0);
+  for (Index j : options.last) search.stage.at(j) = 1;
+  take_best_method(search, clock);
+  if (pattern.variables() == 0) return {};
+  const Budget& budget = options.budget;
+  const auto time_left = [&] { return budget.seconds <= 0 || clock.seconds() < budget.seconds; };
+  const auto tries_left = [&](int done) { return budget.seconds > 0 || done < budget.tries; };
+  for (int done = 0; tries_left(done) && time_left(); done += tries_a_round) {
+    std::vector<Try> tries(tries_a_round);
+    tbb::parallel_for(0, tries_a_round, [&](int i) {
+      if (tries_left(done + i) && time_left()) tries[i] = one_try(search, done + i);
+    });
+    take_round(search, tries, done + tries_a_round, clock);
+  }
+  return std::move(search.best.order);
+}
+
+}  // namespace sg::ordering

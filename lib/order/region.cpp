@@ -1,0 +1,147 @@
+#include "lib/order/region.h"
+
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+#include "lib/elim/counts.h"
+
+namespace sg {
+namespace {
+
+// The first position of every subtree.
+std::vector<Index> subtree_begin(const std::vector<Index>& parent) {
+  std::vector<Index> first(parent.size());
+  for (Index k = 0; k < static_cast<Index>(parent.size()); ++k) first[k] = k;
+  for (Index k = 0; k < static_cast<Index>(parent.size()); ++k) {
+    if (parent[k] >= 0) first[parent[k]] = std::min(first[parent[k]], first[k]);
+  }
+  return first;
+}
+
+// Children of k in a postorder, by way of their subtrees: the last is k - 1.
+template <class Function>
+void for_children(const Elimination& e, Index k, Function function) {
+  for (Index child = k - 1; child >= e.first[k]; child = e.first[child] - 1) function(child);
+}
+
+std::vector<Index> top_of_subtree(const Elimination& e, Index root, Index size) {
+  std::vector<Index> inside;
+  std::priority_queue<std::pair<std::int64_t, Index>> next;
+  next.emplace(e.count[root], root);
+  while (!next.empty() && static_cast<Index>(inside.size()) < size) {
+    const Index k = next.top().second;
+    next.pop();
+    inside.push_back(k);
+    for_children(e, k, [&](Index child) { next.emplace(e.count[child], child); });
+  }
+  std::sort(inside.begin(), inside.end());
+  return inside;
+}
+
+// The first row whose first variable is at this position or later.
+Index first_row(const Elimination& e, Index position) {
+  Index low = 0, high = e.rows.rows();
+  while (low < high) {
+    const Index middle = low + (high - low) / 2;
+    if (e.rows.row(middle)[0] < position) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+void end_row(std::vector<Index>& row, std::vector<std::vector<Index>>& rows) {
+  std::sort(row.begin(), row.end());
+  row.erase(std::unique(row.begin(), row.end()), row.end());
+  if (!row.empty()) rows.push_back(std::move(row));
+  row.clear();
+}
+
+// The rows of R, in positions: those that R eliminates, and the separators of what hangs below it.
+std::vector<std::vector<Index>> region_rows(const Elimination& e,
+                                            const std::vector<Index>& inside) {
+  std::vector<std::vector<Index>> rows;
+  std::vector<Index> row;
+  const auto hanging = [&](Index child) {
+    if (std::binary_search(inside.begin(), inside.end(), child)) return;
+    for (Index r = first_row(e, e.first[child]), end = first_row(e, child + 1); r < end; ++r) {
+      for (Index k : e.rows.row(r)) {
+        if (k > child) row.push_back(k);
+      }
+    }
+    end_row(row, rows);
+  };
+  for (Index k : inside) {
+    for (Index r = first_row(e, k); r < e.rows.rows() && e.rows.row(r)[0] == k; ++r) {
+      row.assign(e.rows.row(r).begin(), e.rows.row(r).end());
+      end_row(row, rows);
+    }
+    for_children(e, k, hanging);
+  }
+  return rows;
+}
+
+}  // namespace
+
+Elimination elimination(const Pattern& pattern, const Order& order) {
+  const std::vector<Index> post = postorder(elimination_tree(ordered(pattern, order)));
+  Elimination e;
+  e.order.reserve(order.size());
+  for (Index k : post) e.order.push_back(order[k]);
+  e.rows = ordered(pattern, e.order);
+  e.parent = elimination_tree(e.rows);
+  e.first = subtree_begin(e.parent);
+  e.count = column_counts(e.rows, e.parent);
+  for (std::size_t k = 0; k < e.count.size(); ++k) {
+    e.ec += elimination_cost(e.rows.dim[k], e.count[k]);
+  }
+  return e;
+}
+
+Region region(const Elimination& e, Index root, Index size) {
+  Region result{root, top_of_subtree(e, root, size), {}, 0};
+  const std::vector<std::vector<Index>> rows = region_rows(e, result.inside);
+  std::vector<Index> positions = result.inside;
+  for (const auto& row : rows) positions.insert(positions.end(), row.begin(), row.end());
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  for (Index k : positions) result.pattern.dim.push_back(e.rows.dim[k]);
+  result.pattern.row_begin.push_back(0);
+  for (const auto& row : rows) {
+    for (Index k : row) {
+      const auto at = std::lower_bound(positions.begin(), positions.end(), k);
+      result.pattern.row_variables.push_back(static_cast<Index>(at - positions.begin()));
+    }
+    result.pattern.row_begin.push_back(static_cast<Index>(result.pattern.row_variables.size()));
+  }
+  for (Index k : result.inside) result.ec += elimination_cost(e.rows.dim[k], e.count[k]);
+  return result;
+}
+
+Wide region_ec(const Region& region, const Order& order) {
+  const Symbolic after = symbolic(region.pattern, order);
+  Wide ec = 0;
+  for (std::size_t k = 0; k < region.inside.size(); ++k) {
+    ec += elimination_cost(after.dim[k], after.count[k]);
+  }
+  return ec;
+}
+
+std::vector<Index> reordered_subtree(const Elimination& e, const Region& region,
+                                     const Order& order) {
+  std::vector<Index> result;
+  for (Index k = e.first[region.root]; k <= region.root; ++k) {
+    if (!std::binary_search(region.inside.begin(), region.inside.end(), k)) {
+      result.push_back(e.order[k]);
+    }
+  }
+  for (std::size_t k = 0; k < region.inside.size(); ++k) {
+    result.push_back(e.order[region.inside[order[k]]]);
+  }
+  return result;
+}
+
+}  // namespace sg
