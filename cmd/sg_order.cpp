@@ -1,4 +1,7 @@
 // sg-order: put a graph's variables in elimination order.
+#include <cstdio>
+#include <iostream>
+
 #include "cmd/common/command.h"
 #include "formats/order_file.h"
 #include "formats/reorder.h"
@@ -16,6 +19,7 @@ struct Options {
   bool print = false;
   std::vector<sg::Id> last;
   std::uint64_t seed = 0;
+  std::string budget = "200t";
 };
 
 // The names of the table, in lines that fit a terminal beside the options.
@@ -49,6 +53,8 @@ void add_options(sg::Command& command, Options& options) {
       ->allow_extra_args(false);
   app.add_option("--seed", options.seed, "Seed of methods that draw or break ties (default: 0)")
       ->option_text("N");
+  app.add_option("--budget", options.budget, "Of best: seconds, or Nt for N tries (default: 200t)")
+      ->option_text("SECONDS|Nt");
   app.add_flag("--print", options.print, "Print the ids in their order instead of the graph");
   sg::add_filter_output(command, options.output);
 }
@@ -66,11 +72,19 @@ std::vector<sg::Index> last_variables(const Options& options, const sg::Graph& g
   return last;
 }
 
-sg::Order computed_order(const Options& options, const sg::Graph& graph,
+void print_improvement(const sg::Improvement& better) {
+  char text[64];
+  std::snprintf(text, sizeof text, " after %d tries, %.2f s\n", better.tries, better.seconds);
+  std::cerr << "sg-order: " << better.how << ": EC " << sg::to_string(better.ec) << text;
+}
+
+sg::Order computed_order(const sg::Command& command, const Options& options, const sg::Graph& graph,
                          const sg::GraphPattern& variables) {
   sg::OrderOptions order_options = sg::order_options(graph, variables);
   order_options.last = last_variables(options, graph, variables);
   order_options.seed = options.seed;
+  order_options.budget = sg::parse_budget(options.budget);
+  if (command.verbose) order_options.report = print_improvement;
   return sg::elimination_order(options.method, variables.pattern, order_options);
 }
 
@@ -146,13 +160,15 @@ int main(int argc, char** argv) {
   add_options(command, options);
   return sg::run(command, argc, argv, [&] {
     sg::find_ordering(options.method);  // before a long read
+    sg::parse_budget(options.budget);
     if (options.apply == "-" && options.input.path == "-") {
       throw sg::usage_error("graph and order cannot both come from standard input");
     }
     const sg::Graph graph = sg::read(options.input);
     const sg::GraphPattern variables = sg::graph_pattern(graph);
-    const sg::Order order =
-        (options.apply.empty() ? computed_order : applied_order)(options, graph, variables);
+    const sg::Order order = options.apply.empty()
+                                ? computed_order(command, options, graph, variables)
+                                : applied_order(options, graph, variables);
     if (options.print) return print_ids(options, graph, variables, order);
     write_graph(command, options, graph, vertices_in_order(graph, variables, order));
   });

@@ -25,6 +25,8 @@ struct Budget {
   int tries = 200;
   double seconds = 0;
 };
+// "2.5": seconds; "500t": tries. Throws a usage Error for anything else.
+Budget parse_budget(std::string_view text);
 
 // A better order, as soon as an anytime ordering has found it.
 struct Improvement {

@@ -118,15 +118,29 @@ std::int64_t entries(const Adjacency& graph) {
   return static_cast<std::int64_t>(graph.neighbours.size()) + graph.size();
 }
 
-// The other pass that is worth its time, of the work of the first: plain fill where that was quick;
-// bounds alone where the graph is dense, since they take a clique at a time.
-bool another_pass(const Adjacency& graph, std::int64_t work, GreedyOptions& options) {
-  if (work <= 25 * entries(graph)) {
-    options.score = FillScore::plain;
-    return true;
-  }
-  options.exact_work = 0;
-  return entries(graph) > 20 * std::int64_t{graph.size()} && work <= 100 * entries(graph);
+void keep_better(GreedyResult& best, GreedyResult&& other) {
+  if (!other.order.empty() && other.ec < best.ec) best = std::move(other);
+}
+
+// Where the first pass was quick: plain fill, and minimum degree, which wins on some small graphs.
+void try_cheap(const Pattern& pattern, const Adjacency& graph, const WmfOptions& options,
+               GreedyOptions greedy, GreedyResult& best) {
+  greedy.score = FillScore::plain;
+  greedy.limit = best.ec;
+  keep_better(best, greedy_fill(pattern, graph, greedy));
+  OrderOptions order_options;
+  order_options.last = options.last;
+  Order amd = elimination_order("amd", pattern, order_options);
+  const Wide ec = elimination_complexity(pattern, amd);
+  keep_better(best, {std::move(amd), ec, 0});
+}
+
+// Where the graph is dense: bounds alone, which take a clique at a time.
+void try_bounds(const Pattern& pattern, const Adjacency& graph, GreedyOptions greedy,
+                GreedyResult& best) {
+  greedy.exact_work = 0;
+  greedy.limit = best.ec;
+  keep_better(best, greedy_fill(pattern, graph, greedy));
 }
 
 }  // namespace
@@ -159,10 +173,13 @@ Order wmf(const Pattern& pattern, const WmfOptions& options) {
   greedy.stage = stages(pattern.variables(), options.last);
   greedy.seed = options.seed;
   GreedyResult best = greedy_fill(pattern, graph, greedy);
-  if (!another_pass(graph, best.work, greedy)) return std::move(best.order);
-  greedy.limit = best.ec;
-  GreedyResult other = greedy_fill(pattern, graph, greedy);
-  return other.ec < best.ec ? std::move(other.order) : std::move(best.order);
+  const std::int64_t size = entries(graph);
+  if (best.work <= 25 * size) {
+    try_cheap(pattern, graph, options, greedy, best);
+  } else if (size > 20 * std::int64_t{graph.size()} && best.work <= 100 * size) {
+    try_bounds(pattern, graph, greedy, best);
+  }
+  return std::move(best.order);
 }
 
 namespace ordering {

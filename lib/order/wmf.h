@@ -20,11 +20,13 @@
 // pay per variable that it removes from the graph, as in approximate minimum mean local fill
 // (Rothberg, Eisenstat); its factor sqrt(d + d_s) forgives fill among many neighbours, who would
 // soon have met anyhow. On SLAM graphs this takes a tenth off the EC of plain minimum fill, on
-// dense landmark graphs a third; plain fill is the better of the two on some sparse graphs, bounds
-// alone (below) on some dense ones, and they are tried as well where that is cheap. A variable of no fill (simplicial) scores 0 and goes at once,
+// dense landmark graphs a third. A variable of no fill (simplicial) scores 0 and goes at once,
 // which some optimal order does too. Before v goes a neighbour of it that has no other neighbours
 // than v's, if that is cheaper (better_first in fill_graph.h): mass elimination, the right way
 // around. Ties go to the lowest index, or by seed.
+//
+// No greedy is best everywhere. Where the pass was quick there is time to try plain fill and AMD,
+// and on a dense graph a pass by bounds alone (below); the least EC wins.
 //
 // Exactness. While the graph is small enough, fill is exact, kept up to date edge by edge
 // (fill_graph.h). When the work for that has grown past a fixed multiple of the size of the input,

@@ -108,3 +108,44 @@ others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
     cmp <(sg-order -m colamd --print "$file") <(sg-order -m colamd --print out.g2o)
   done
 }
+
+@test "best: a budget in tries gives the same order each time, never above another method" {
+  sg-gen city -n 300 >city.g2o
+  sg-order -m best --budget 32t --print city.g2o >a
+  sg-order -m best --budget 32t --print city.g2o | cmp - a
+  best=$(sg-order -m best --budget 32t city.g2o | sg-ec -m file -f ec --no-header)
+  for ec in $(sg-ec -m colamd,amd,wmf,metis,scotch -f ec --no-header city.g2o); do
+    [ "$best" -le "$ec" ]
+  done
+}
+
+@test "best: each improvement is a line of -v, and the last one is what comes out" {
+  sg-gen city -n 300 >city.g2o
+  sg-order -v -m best --budget 32t city.g2o 2>log >out.g2o
+  [ "$(grep -c 'EC .* after .* tries' log)" -eq "$(wc -l <log)" ]
+  ec=$(sg-ec -m file -f ec --no-header out.g2o)
+  tail -n 1 log | grep -q "EC $ec after"
+  sg-order -m best --budget 32t city.g2o 2>log >/dev/null
+  [ ! -s log ]
+}
+
+@test "best: a budget in seconds is kept" {
+  sg-gen city -n 300 >city.g2o
+  SECONDS=0
+  sg-order -m best --budget 0.5 city.g2o >/dev/null
+  [ "$SECONDS" -lt 30 ]
+}
+
+@test "a budget that is neither seconds nor tries is a usage error" {
+  for budget in 5x t -1t 0 -2 nan inf ''; do
+    run sg-order -m best --budget "$budget" walk.g2o
+    [ "$status" -eq 2 ]
+    [[ "$output" == *"--budget wants seconds, as in 2.5, or tries, as in 500t, not '$budget'"* ]]
+  done
+}
+
+@test "--last holds for wmf and best" {
+  for method in wmf best; do
+    [ "$(sg-order -m $method --last 2,100 --print walk.g2o | tail -n 2 | sort -n | tr '\n' ' ')" = "2 100 " ]
+  done
+}
