@@ -9,17 +9,6 @@
 namespace sg {
 namespace {
 
-using Ends = std::array<const double*, max_ends>;
-
-Ends estimates(const Problem& problem, const Values& values, Index e) {
-  Ends x{};
-  const auto vertices = problem.graph->edge(e);
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    x[k] = values.data() + problem.value_at[vertices[k]];
-  }
-  return x;
-}
-
 // Where v stands in edge e, if all other ends are placed; -1 otherwise.
 int free_end(const Graph& graph, const std::vector<bool>& placed, Index e, Index v) {
   int end = -1;
@@ -141,8 +130,8 @@ void place_all(Spread& spread) {
 }  // namespace
 
 Ray ray_of(const Problem& problem, Index e, const Values& values) {
-  const Ends x = estimates(problem, values, e);
-  return problem.model[e]->rays(x.data(), problem.constants.data() + problem.constants_at[e]);
+  const Ends x = ends_of(problem, values, e);
+  return problem.model[e]->rays(x.data(), constants_of(problem, e));
 }
 
 bool triangulate(std::span<const Ray> rays, int dim, double* out) {
@@ -176,8 +165,8 @@ bool place_vertex(const Problem& problem, Index v, std::span<const Index> edges,
     const Model& model = *problem.model[e];
     const int end = free_end(*problem.graph, placed, e, v);
     if (end < 0 || !model.place) continue;
-    const Ends x = estimates(problem, values, e);
-    const double* const c = problem.constants.data() + problem.constants_at[e];
+    const Ends x = ends_of(problem, values, e);
+    const double* const c = constants_of(problem, e);
     if (model.place(x.data(), c, end, values.data() + problem.value_at[v])) return true;
   }
   return place_by_rays(problem, v, edges, placed, values);

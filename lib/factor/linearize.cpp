@@ -8,17 +8,6 @@
 namespace sg {
 namespace {
 
-using Ends = std::array<const double*, max_ends>;
-
-Ends estimates(const Problem& problem, const Values& values, Index e) {
-  Ends x{};
-  const auto vertices = problem.graph->edge(e);
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    x[k] = values.data() + problem.value_at[vertices[k]];
-  }
-  return x;
-}
-
 int columns(const Pattern& pattern, Index r) {
   int sum = 0;
   for (Index j : pattern.row(r)) sum += pattern.dim[j];
@@ -89,9 +78,9 @@ void linearize_row(const Problem& problem, const Values& values, const Kernel& k
   const Pattern& pattern = problem.variables.pattern;
   if (r >= problem.graph->edges()) return gauge_row(pattern.dim[problem.held], block);
   const Model& model = *problem.model[r];
-  const Ends x = estimates(problem, values, r);
-  const double* const c = problem.constants.data() + problem.constants_at[r];
-  const double* const U = problem.whitening.data() + problem.whitening_at[r];
+  const Ends x = ends_of(problem, values, r);
+  const double* const c = constants_of(problem, r);
+  const Whitening U = whitening_of(problem, r);
   const auto variables = pattern.row(r);
   if (static_cast<int>(variables.size()) == model.arity) {
     model.linearize(x.data(), c, U, block);
@@ -118,10 +107,9 @@ void linearize(const Problem& problem, const Values& values, const Kernel& kerne
 
 double edge_chi2(const Problem& problem, const Values& values, Index e) {
   const Model& model = *problem.model[e];
-  const Ends x = estimates(problem, values, e);
+  const Ends x = ends_of(problem, values, e);
   double error[max_dim];
-  model.error(x.data(), problem.constants.data() + problem.constants_at[e],
-              problem.whitening.data() + problem.whitening_at[e], error);
+  model.error(x.data(), constants_of(problem, e), whitening_of(problem, e), error);
   double sum = 0;
   for (int k = 0; k < model.dim; ++k) sum += error[k] * error[k];
   return sum;

@@ -56,6 +56,12 @@ struct Ray {
   std::array<double, 3> ahead{};
 };
 
+// U with W = U' U: dim x dim, by column.
+struct Whitening {
+  const double* U;
+  bool diagonal;  // nothing but zeros beside the diagonal
+};
+
 struct Model {
   std::string_view tag;
   int dim;
@@ -68,10 +74,10 @@ struct Model {
 
   // False for a measurement that is none (a quaternion of length zero).
   bool (*prepare)(const double* z, const double* const* params, double* c);
-  // r := U e; U is dim x dim, by column.
-  void (*error)(const double* const* x, const double* c, const double* U, double* r);
+  // r := U e.
+  void (*error)(const double* const* x, const double* c, const Whitening& U, double* r);
   // block := [U J_0 ... U J_k  -U e], by column: dim x (sum of the vertices' dimensions + 1).
-  void (*linearize)(const double* const* x, const double* c, const double* U, double* block);
+  void (*linearize)(const double* const* x, const double* c, const Whitening& U, double* block);
   bool (*place)(const double* const* x, const double* c, int end,
                 double* out);                            // null where there is none
   Ray (*rays)(const double* const* x, const double* c);  // null where there is none

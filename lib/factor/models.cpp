@@ -14,12 +14,23 @@ namespace {
 template <int rows, int cols>
 using Block = Eigen::Matrix<double, rows, cols>;
 
+// to := U from. Most information matrices are diagonal, and the product is most of the time.
+template <int dim, int columns>
+void whiten(const Whitening& whitening, const Block<dim, columns>& from, double* to) {
+  const Eigen::Map<const Block<dim, dim>> U(whitening.U);
+  Eigen::Map<Block<dim, columns>> result(to);
+  if (whitening.diagonal) {
+    result.noalias() = U.diagonal().asDiagonal() * from;
+  } else {
+    result.noalias() = U * from;
+  }
+}
+
 template <class Type>
-void whitened_error(const double* const* x, const double* c, const double* U, double* r) {
+void whitened_error(const double* const* x, const double* c, const Whitening& U, double* r) {
   Block<Type::dim, 1> e;
   Type::evaluate(x, c, e.data(), nullptr);
-  Eigen::Map<Block<Type::dim, 1>>{r}.noalias() =
-      Eigen::Map<const Block<Type::dim, Type::dim>>(U) * e;
+  whiten<Type::dim, 1>(U, e, r);
 }
 
 template <class Type>
@@ -30,7 +41,7 @@ constexpr int columns_of() {
 }
 
 template <class Type>
-void linearize(const double* const* x, const double* c, const double* U, double* block) {
+void linearize(const double* const* x, const double* c, const Whitening& U, double* block) {
   constexpr int dim = Type::dim, columns = columns_of<Type>();
   Block<dim, columns + 1> unwhitened;
   std::array<double*, max_ends> J{};
@@ -41,8 +52,7 @@ void linearize(const double* const* x, const double* c, const double* U, double*
   }
   Type::evaluate(x, c, at, J.data());
   unwhitened.col(columns) *= -1;
-  Eigen::Map<Block<dim, columns + 1>>{block}.noalias() =
-      Eigen::Map<const Block<dim, dim>>(U) * unwhitened;
+  whiten<dim, columns + 1>(U, unwhitened, block);
 }
 
 template <class Type>

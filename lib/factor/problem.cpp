@@ -94,6 +94,16 @@ void check_ends(const Builder& builder, Index e, const Model& model) {
   }
 }
 
+bool is_diagonal(std::span<const double> triangle, int dim) {
+  std::size_t k = 0;
+  for (int i = 0; i < dim; ++i) {
+    for (int j = i; j < dim; ++j, ++k) {
+      if (i != j && triangle[k] != 0) return false;
+    }
+  }
+  return true;
+}
+
 // Where the whitening matrix of this information stands.
 Index store_whitening(Builder& builder, Index e, std::span<const double> triangle, int dim) {
   Problem& problem = builder.problem;
@@ -130,6 +140,7 @@ void add_factor(Builder& builder, Index e) {
   Problem& problem = builder.problem;
   const std::span<const double> information(numbers.data() + model->measurement, triangle);
   problem.whitening_at.push_back(store_whitening(builder, e, information, model->dim));
+  problem.diagonal.push_back(is_diagonal(information, model->dim));
   // What the model keeps: the measurement and the numbers behind the information, together.
   numbers.erase(numbers.begin() + model->measurement,
                 numbers.begin() + model->measurement + triangle);

@@ -33,6 +33,7 @@ struct Problem {
   std::vector<double> constants;
   std::vector<Index> whitening_at;  // m, into whitening; equal ones in a row are stored once
   std::vector<double> whitening;    // U with W = U' U, dim x dim by column
+  std::vector<bool> diagonal;       // m: whether the edge's U is
 
   GraphPattern variables;      // pattern's rows: the edges, then the gauge's if there is one
   Index held = -1;             // the variable that the gauge's row holds, -1 without one
@@ -47,6 +48,25 @@ Problem make_problem(const Graph& graph);
 
 // The estimates of the file's VERTEX lines; of an edges-only file: initial_values (initialize.h).
 Values file_values(const Problem& problem);
+
+// What edge e has of it all.
+inline const double* constants_of(const Problem& problem, Index e) {
+  return problem.constants.data() + problem.constants_at[e];
+}
+inline Whitening whitening_of(const Problem& problem, Index e) {
+  return {problem.whitening.data() + problem.whitening_at[e], problem.diagonal[e]};
+}
+
+// The estimates of edge e's vertices.
+using Ends = std::array<const double*, max_ends>;
+inline Ends ends_of(const Problem& problem, const Values& values, Index e) {
+  Ends x{};
+  const auto vertices = problem.graph->edge(e);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    x[k] = values.data() + problem.value_at[vertices[k]];
+  }
+  return x;
+}
 
 // values (+) step, variable by variable.
 void retract(const Problem& problem, const std::vector<double>& step, Values& values);

@@ -28,6 +28,10 @@ bool whitening(std::span<const double> upper_triangle, int dim, double* U) {
     root = cholesky.matrixU();
     return true;
   }
+  if (W.isDiagonal(0) && (W.diagonal().array() >= 0).all()) {
+    root = Matrix(W.diagonal().cwiseSqrt().asDiagonal());
+    return true;
+  }
   const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(W);
   const auto& values = spectrum.eigenvalues();
   if (values[0] < -rounding * std::abs(values[dim - 1])) return false;

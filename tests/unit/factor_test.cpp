@@ -33,6 +33,7 @@ struct Instance {
   std::vector<std::vector<double>> x;
   std::vector<double> constants;
   std::vector<double> U;
+  bool diagonal = false;
 
   std::array<const double*, max_ends> ends() const {
     std::array<const double*, max_ends> pointers{};
@@ -58,15 +59,17 @@ Instance random_instance(const Model& model) {
   }
   for (const auto& param : params) pointers.push_back(param.data());
   REQUIRE(model.prepare(z.data(), pointers.data(), instance.constants.data()));
-  const auto U = Eigen::MatrixXd::Random(model.dim, model.dim).eval();
+  Eigen::MatrixXd U = Eigen::MatrixXd::Random(model.dim, model.dim);
+  instance.diagonal = random_bits() % 2;
+  if (instance.diagonal) U = Eigen::MatrixXd(U.diagonal().asDiagonal());
   instance.U.assign(U.data(), U.data() + U.size());
   return instance;
 }
 
 Eigen::VectorXd error(const Instance& instance) {
   Eigen::VectorXd r(instance.model.dim);
-  instance.model.error(instance.ends().data(), instance.constants.data(), instance.U.data(),
-                       r.data());
+  instance.model.error(instance.ends().data(), instance.constants.data(),
+                       {instance.U.data(), instance.diagonal}, r.data());
   return r;
 }
 
@@ -80,8 +83,8 @@ Eigen::VectorXd error_after(Instance instance, int end, int axis, double length)
 void check_jacobian(const Instance& instance) {
   const Model& model = instance.model;
   std::vector<double> block(max_block);
-  model.linearize(instance.ends().data(), instance.constants.data(), instance.U.data(),
-                  block.data());
+  model.linearize(instance.ends().data(), instance.constants.data(),
+                  {instance.U.data(), instance.diagonal}, block.data());
   Eigen::Map<Eigen::MatrixXd> columns(block.data(), model.dim, max_block / model.dim);
   int column = 0;
   const double h = 1e-6;
@@ -149,14 +152,10 @@ Eigen::MatrixXd numerical(const Problem& problem, const Values& values) {
   const auto errors = [&](const Values& x) {
     std::vector<double> all;
     for (Index e = 0; e < problem.graph->edges(); ++e) {
-      const Model& model = *problem.model[e];
-      std::array<const double*, max_ends> ends{};
-      for (std::size_t k = 0; k < problem.graph->edge(e).size(); ++k) {
-        ends[k] = x.data() + problem.value_at[problem.graph->edge(e)[k]];
-      }
       double r[max_dim];
-      model.error(ends.data(), problem.constants.data() + problem.constants_at[e],
-                  problem.whitening.data() + problem.whitening_at[e], r);
+      const Model& model = *problem.model[e];
+      model.error(ends_of(problem, x, e).data(), constants_of(problem, e), whitening_of(problem, e),
+                  r);
       all.insert(all.end(), r, r + model.dim);
     }
     return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Index>(all.size())));
