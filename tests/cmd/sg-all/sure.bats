@@ -169,3 +169,14 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
     cmp in.g2o out.g2o || { echo "$filter" >&2; return 1; }
   done
 }
+
+@test "the manual names every tag, and each is known" {
+  page=$TESTDATA/../man/sg-graph.5
+  tags=$(sed -nE 's/^\.It ((VERTEX|EDGE|PARAMS)_?[A-Z0-9_:]*[A-Z0-9]).*/\1/p' "$page" | sort -u)
+  [ "$(wc -l <<<"$tags")" -gt 60 ]
+  code=0
+  sg-check <(cat <<<"$tags") >found || code=$?
+  [ $code = 1 ] && ! grep 'unknown tag' found
+  registered=$(grep -oE '(EdgeRow|VertexRow)\{"[^"]+' "$TESTDATA/../lib/graph/tags.cpp" | cut -d'"' -f2 | sort -u)
+  [ -z "$(comm -23 <(echo "$registered") <(echo "$tags"))" ]
+}
