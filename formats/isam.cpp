@@ -212,7 +212,11 @@ void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
   std::string out;
   for (Index e = 0; e < graph.edges(); ++e) {
     if (!holds_edge(graph, e)) continue;
-    write_edge(graph, e, first, out);
+    try {
+      write_edge(graph, e, first, out);
+    } catch (const BadLine& bad) {
+      throw error_at(graph, graph.edge_line[e], bad.cause);
+    }
     sink.write(out += '\n');
   }
 }

@@ -73,15 +73,19 @@ std::string translate_lines(std::string_view text, const std::string& file,
   return out;
 }
 
-void write_lines(std::string_view text, const TranslateLine& translate, Sink& sink) {
+void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink) {
   std::string out;
-  for_lines(text, [&](std::string_view line) {
+  for_lines(graph.text.view, [&](std::string_view line) {
     out.clear();
     auto rest = line;
-    if (next_word(rest).starts_with('#')) {
-      out = line;
-    } else {
-      translate(line, out);
+    try {
+      if (next_word(rest).starts_with('#')) {
+        out = line;
+      } else {
+        translate(line, out);
+      }
+    } catch (const BadLine& bad) {
+      throw error_at(graph, line.data() - graph.text.view.data(), bad.cause);
     }
     if (!out.empty()) sink.write(out += '\n');
     return true;

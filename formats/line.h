@@ -54,9 +54,9 @@ using TranslateLine = std::function<void(std::string_view line, std::string& out
 std::string translate_lines(std::string_view text, const std::string& file,
                             const Complaint& complaint, const TranslateLine& translate);
 
-// Writes what `translate` makes of every line of g2o text, in order. A line that it translates to
-// nothing is left out; comments stay.
-void write_lines(std::string_view text, const TranslateLine& translate, Sink& sink);
+// Writes what `translate` makes of every line of a graph, in order. A line that it translates to
+// nothing is left out; comments stay. What it throws as BadLine becomes an input Error.
+void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink);
 
 // Calls `look` with the tag of every line that has one and is neither comment nor FIX, until it
 // returns true. How a format is told by content.

@@ -125,7 +125,7 @@ void write_toro(const Graph& graph, const WriteOptions&, Sink& sink) {
     if (tag == "EDGE_SE3:QUAT") return write_edge_se3(rest, out);
     if (tag == "VERTEX2" || tag == "VERTEX3" || tag == "EDGE2" || tag == "EDGE3") out = line;
   };
-  write_lines(graph.text.view, translate, sink);
+  write_lines(graph, translate, sink);
 }
 
 }  // namespace sg

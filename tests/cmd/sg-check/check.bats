@@ -63,6 +63,11 @@ unit='1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1'
       '<stdin>:3: error: the information matrix of EDGE_SE2 is not positive semidefinite'
 }
 
+@test "TORO's own order of the information is known" {
+  printf 'VERTEX_SE2 9 0 0 0\nVERTEX2 1 0 0 0\nVERTEX2 2 0 0 0\nEDGE2 1 2 0 0 0 1 0.9 1 1 0 0\n' |
+    finds '<stdin>:1: warning: vertex 9 is not connected to the rest'
+}
+
 @test "quaternions" {
   printf "$pose 1 0 0 0 0 0 0 1.0001\n$pose 2 0 0 0 0 0 0 1.01\n$edge 1 2 0 0 0 0 0 0 0 $unit\n" |
     finds "<stdin>:2: warning: the quaternion's length is 1.010000" '<stdin>:3: error: the quaternion is zero'

@@ -111,6 +111,13 @@ near() {
     sg-convert --to isam --from g2o offset.g2o
 }
 
+@test "a zero quaternion is no rotation" {
+  echo 'EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1' >zero.g2o
+  for format in toro isam; do
+    fails 1 "sg-convert: zero.g2o:1: the quaternion is zero" sg-convert --to $format zero.g2o
+  done
+}
+
 @test "wrong calls" {
   fails 2 "sg-convert: unknown format 'obj'; there are g2o, toro, isam, mtx, metis, dot, tum (see sg-convert --help)" \
     sg-convert --to obj walk.g2o
