@@ -1,5 +1,8 @@
 // sg-plot: pictures of a graph.
+#include <array>
+
 #include "cmd/common/command.h"
+#include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
 #include "lib/graph/error.h"
@@ -13,6 +16,7 @@ struct Options {
   sg::OutputOptions output;
   std::string method;
   std::string plane = "xy";
+  bool cost = false;
   sg::PageSize size{600, 600};
 };
 
@@ -28,6 +32,8 @@ void add_options(sg::Command& command, Options& options) {
                  "Ordering, as sg-order has them. Default: the\n"
                  "file's if sg-order left it there, else colamd")
       ->option_text("METHOD");
+  app.add_flag("--cost", options.cost, "Of a map: colour what costs by its share of EC")
+      ->option_text(" ");
   app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
       ->check(CLI::IsMember({"xy", "xz", "yz"}).description(""))
       ->option_text("PLANE");
@@ -40,20 +46,28 @@ void add_options(sg::Command& command, Options& options) {
   sg::add_output(command, options.output);
 }
 
-sg::Order order_of(const Options& options, const sg::Graph& graph,
-                   const sg::GraphPattern& variables) {
+struct NamedOrder {
+  sg::Order order;
+  std::string name;
+};
+
+NamedOrder order_of(const Options& options, const sg::Graph& graph,
+                    const sg::GraphPattern& variables) {
   std::string method = options.method;
   if (method.empty()) method = graph.order_method.empty() ? "colamd" : "file";
-  return sg::elimination_order(method, variables.pattern, sg::order_options(graph, variables));
+  return {sg::elimination_order(method, variables.pattern, sg::order_options(graph, variables)),
+          options.method.empty() && method == "file" ? "file:" + graph.order_method : method};
 }
 
 void draw(cairo_t* page, const Options& options, const sg::Graph& graph) {
-  if (options.what == "map") {
-    const int right = options.plane[0] - 'x';
-    return sg::draw_map(page, options.size, graph, {right, options.plane[1] - 'x'});
-  }
+  const bool map = options.what == "map";
+  const std::array axes{options.plane[0] - 'x', options.plane[1] - 'x'};
+  if (map && !options.cost) return sg::draw_map(page, options.size, graph, axes);
   const sg::GraphPattern variables = sg::graph_pattern(graph);
-  const sg::Order order = order_of(options, graph, variables);
+  const auto [order, name] = order_of(options, graph, variables);
+  if (map) {
+    return sg::draw_cost_map(page, options.size, graph, axes, sg::costs(variables, order, name));
+  }
   if (options.what == "pattern") {
     return sg::draw_pattern(page, options.size, variables.pattern, order);
   }
@@ -68,6 +82,7 @@ int main(int argc, char** argv) {
   add_options(command, options);
   return sg::run(command, argc, argv, [&] {
     const sg::PictureFormat format = sg::picture_format(options.output.path);
+    if (options.cost && options.what != "map") throw sg::usage_error("--cost belongs to map");
     if (!options.method.empty()) sg::find_ordering(options.method);  // before a long read
     const sg::Graph graph = sg::read(options.input);
     const std::string bytes = sg::picture(format, options.size.width, options.size.height,

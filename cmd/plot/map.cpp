@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
 #include "lib/factor/initialize.h"
@@ -117,14 +118,28 @@ std::vector<std::array<double, 3>> positions(const Graph& graph) {
   return result;
 }
 
-void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
-              const std::array<int, 2>& axes) {
+namespace {
+
+struct Placed {
+  std::vector<Point> points;  // on the page
+  double scale;               // points a metre
+};
+
+Placed placed(const Graph& graph, const std::array<int, 2>& axes, const PageSize& size) {
   std::vector<Point> points;
   for (const auto& position : positions(graph)) {
     points.push_back({position[axes[0]], position[axes[1]]});
   }
   const Projection project = fit(points, size);
   std::transform(points.begin(), points.end(), points.begin(), project);
+  return {std::move(points), project.scale};
+}
+
+}  // namespace
+
+void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
+              const std::array<int, 2>& axes) {
+  const auto [points, scale] = placed(graph, axes, size);
   const std::vector<EdgeRole> roles = edge_roles(graph, pose_index(graph));
   set_color(page, faint_color, 0.35);
   cairo_set_line_width(page, 0.3);
@@ -140,7 +155,26 @@ void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
   set_color(page, landmark_color);
   cairo_set_line_width(page, 2.4);
   draw_dots(page, graph, Role::landmark, points);
-  draw_scale_bar(page, size, project.scale);
+  draw_scale_bar(page, size, scale);
+}
+
+void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
+                   const std::array<int, 2>& axes, const Costs& costs) {
+  const auto [points, scale] = placed(graph, axes, size);
+  const std::vector<EdgeRole> roles = edge_roles(graph, pose_index(graph));
+  set_color(page, faint_color, 0.25);
+  cairo_set_line_width(page, 0.4);
+  for (const EdgeRole role : {EdgeRole::observation, EdgeRole::loop_closure, EdgeRole::odometry}) {
+    draw_edges(page, graph, roles, role, points);
+  }
+  for (const Index v : costs.ascending) {
+    const double value = std::sqrt(costs.vertex[v] / costs.largest);
+    set_color(page, heat(value));
+    cairo_arc(page, points[v].x, points[v].y, 0.7 + 1.8 * value, 0, 2 * M_PI);
+    cairo_fill(page);
+  }
+  draw_scale_bar(page, size, scale);
+  draw_cost_legend(page, size, costs);
 }
 
 }  // namespace sg

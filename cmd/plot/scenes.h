@@ -27,6 +27,12 @@ std::vector<std::array<double, 3>> positions(const Graph& graph);
 void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
               const std::array<int, 2>& axes);
 
+// The same map with all edges faint, and variables coloured by what they cost: colour and radius
+// grow with the square root of a variable's cost, the costliest on top.
+struct Costs;
+void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
+                   const std::array<int, 2>& axes, const Costs& costs);
+
 // R in its order, rows and columns in scalars: what A^T A has in blue, fill in orange.
 void draw_pattern(cairo_t* page, const PageSize& size, const Pattern& pattern, const Order& order);
 

@@ -22,6 +22,22 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   [ "$(shapes edges.svg "$landmark")" -eq 1 ]
 }
 
+@test "costs are coloured by their share, the largest darkest" {
+  # 2 goes first and costs 3 * 9^2, then 1 costs 3 * 6^2, 3 costs 3 * 3^2
+  printf '2\n1\n3\n' >order
+  printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >in.g2o
+  sg-order --apply order in.g2o | sg-plot map --cost >cost.svg
+  dots() { grep ' C ' cost.svg | grep -v -e stroke-width -e glyph | grep 'fill:rgb'; }
+  [ "$(dots | wc -l)" -eq 3 ]
+  dots | tail -n 1 | grep -q 'fill:rgb(50%,0%,15%)'  # dark red and on top: the costliest
+  [ "$(dots | grep -c 'fill:rgb(50%,0%,15%)')" -eq 1 ]
+  [ "$(shapes cost.svg "$path")" -eq 0 ]
+  sg-order --apply order in.g2o | sg-plot map >map.svg
+  [ "$(shapes map.svg "$path")" -eq 2 ]
+  fails 2 "sg-plot: --cost belongs to map (see sg-plot --help)" sg-plot tree --cost in.g2o
+  printf 'VERTEX_SE2 1 5 5 0\nFIX 1\n' | sg-plot map --cost >/dev/null
+}
+
 @test "the pattern of R tells fill from the system" {
   # 2 goes first and joins 1 and 3
   printf '2\n1\n3\n' >order

@@ -1,0 +1,32 @@
+// Where the cost of an elimination sits, as colours.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cmd/plot/picture.h"
+#include "cmd/plot/scenes.h"
+#include "lib/graph/pattern.h"
+
+namespace sg {
+
+// From light yellow (0) by orange and red to dark red (1).
+Color heat(double value);
+
+// What every variable costs under an order, and what they cost together: EC.
+struct Costs {
+  std::string order;             // its name
+  std::vector<double> vertex;    // d_f (d_f + d_s)^2 of every vertex; 0 of constants
+  std::vector<Index> ascending;  // the vertices that are variables, by cost
+  double total = 0;
+  double largest = 0;
+};
+Costs costs(const GraphPattern& variables, const Order& order, std::string name);
+
+// The fewest variables that hold half of the cost.
+Index half(const Costs& costs);
+
+// What the colours say: EC and its concentration at the top, the scale at the lower right corner.
+void draw_cost_legend(cairo_t* page, const PageSize& size, const Costs& costs);
+
+}  // namespace sg
