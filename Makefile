@@ -9,7 +9,7 @@ JOBS   ?= $(shell nproc)
 # Debian packages, by what they are for.
 BUILD_PACKAGES := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
-	libcairo2-dev pkg-config
+	libcairo2-dev libspectra-dev pkg-config
 TEST_PACKAGES  := catch2 bats mandoc graphviz zstd gzip
 LINT_PACKAGES  := clang-format clang-tidy mandoc
 BENCH_PACKAGES := libbenchmark-dev

@@ -1,9 +1,12 @@
 #include "formats/tum.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "formats/euler.h"
 #include "formats/line.h"
+#include "lib/graph/error.h"
+#include "lib/graph/tokens.h"
 
 namespace sg {
 namespace {
@@ -57,6 +60,62 @@ void write_tum(const Graph& graph, const WriteOptions&, Sink& sink) {
     }
     sink.write(out += '\n');
   }
+}
+
+namespace {
+
+// Calls with every line that is neither blank nor a comment, and its number; stops at false.
+template <class Call>
+void each_line(std::string_view text, Call call) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    auto rest = line;
+    const auto word = next_word(rest);
+    if (word.empty() || word.starts_with('#')) continue;
+    if (!call(line, number)) return;
+  }
+}
+
+TumPose read_pose(std::string_view line, const std::string& file, std::size_t number) {
+  TumPose pose{};
+  const auto time = parse<double>(next_word(line));
+  if (!time || *time < 0 || *time != std::floor(*time) || *time > 9e15)
+    throw input_error(file, number, "a time that is no vertex id: poses are matched by id");
+  pose.id = static_cast<Id>(*time);
+  for (double& value : pose.numbers) {
+    const auto read = parse<double>(next_word(line));
+    if (!read) throw input_error(file, number, "a pose wants x y z qx qy qz qw behind its time");
+    value = *read;
+  }
+  return pose;
+}
+
+}  // namespace
+
+bool looks_like_tum(std::string_view text) {
+  bool result = false;
+  each_line(text, [&](std::string_view line, std::size_t) {
+    result = parse<double>(next_word(line)).has_value();
+    return false;
+  });
+  return result;
+}
+
+std::vector<TumPose> read_tum(std::string_view text, const std::string& file) {
+  std::vector<TumPose> poses;
+  each_line(text, [&](std::string_view line, std::size_t number) {
+    poses.push_back(read_pose(line, file, number));
+    return true;
+  });
+  std::sort(poses.begin(), poses.end(),
+            [](const TumPose& a, const TumPose& b) { return a.id < b.id; });
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    if (poses[k].id == poses[k - 1].id)
+      throw input_error(file, 0, "time " + std::to_string(poses[k].id) + " comes twice");
+  }
+  return poses;
 }
 
 }  // namespace sg

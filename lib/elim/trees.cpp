@@ -192,4 +192,21 @@ double add_link(SpanningTrees& trees, const Link& link, double weight) {
   return result;
 }
 
+void solve(SpanningTrees& trees, std::span<double> x) {
+  const auto n = static_cast<Index>(trees.diagonal.size());
+  auto& y = trees.work;
+  for (Index v = 0; v < n; ++v) y[trees.position[v]] = x[v];
+  for (Index k = 0; k < n; ++k) {
+    for (Index at = trees.begin[k]; at < trees.begin[k + 1]; ++at)
+      y[trees.row[at]] -= y[k] * trees.value[at];
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    y[k] /= trees.diagonal[k];
+    for (Index at = trees.begin[k]; at < trees.begin[k + 1]; ++at)
+      y[k] -= y[trees.row[at]] * trees.value[at];
+  }
+  for (Index v = 0; v < n; ++v) x[v] = y[trees.position[v]];
+  std::fill(y.begin(), y.end(), 0);
+}
+
 }  // namespace sg

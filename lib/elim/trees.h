@@ -53,4 +53,7 @@ double gain(SpanningTrees& trees, const Link& link, double weight);
 // Adds it, and returns its gain.
 double add_link(SpanningTrees& trees, const Link& link, double weight);
 
+// x <- M^-1 x with M the grounded Laplacian; x by node.
+void solve(SpanningTrees& trees, std::span<double> x);
+
 }  // namespace sg

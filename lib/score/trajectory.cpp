@@ -1,0 +1,128 @@
+#include "lib/score/trajectory.h"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "lib/factor/initialize.h"
+#include "lib/graph/error.h"
+
+namespace sg {
+namespace {
+
+// Planar: x y theta. In space: x y z and a unit quaternion x y z w, whatever follows.
+SE3 pose_of(const Graph& graph, Index v, const std::vector<double>& n) {
+  if (graph.dim(v) == 3 && n.size() >= 3) return {exp_so3({0, 0, n[2]}), {n[0], n[1], 0}};
+  if (graph.dim(v) >= 6 && n.size() >= 7)
+    return {Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized(), {n[0], n[1], n[2]}};
+  throw error_at(graph, graph.vertex_line[v],
+                 graph.type_of_vertex(v).tag + " is no pose that a trajectory can have");
+}
+
+struct Matched {
+  std::vector<SE3> estimate, reference;
+};
+Matched match(const Trajectory& estimate, const Trajectory& reference) {
+  Matched matched;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < estimate.id.size(); ++i) {
+    while (j < reference.id.size() && reference.id[j] < estimate.id[i]) ++j;
+    if (j == reference.id.size() || reference.id[j] != estimate.id[i]) continue;
+    matched.estimate.push_back(estimate.pose[i]);
+    matched.reference.push_back(reference.pose[j]);
+  }
+  return matched;
+}
+
+Eigen::Matrix3Xd positions(const std::vector<SE3>& poses) {
+  Eigen::Matrix3Xd result(3, poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    result.col(static_cast<Eigen::Index>(i)) = poses[i].t;
+  return result;
+}
+
+struct Similarity {
+  double scale = 1;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+};
+
+// The one that takes the first positions to the second. A single place has no scale.
+Similarity fit(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, bool scale) {
+  const bool spread = (from.colwise() - from.rowwise().mean().eval()).norm() > 0;
+  const bool planar = from.row(2).isZero(0) && to.row(2).isZero(0);
+  const Eigen::Index d = planar ? 2 : 3;
+  const Eigen::MatrixXd fitted = Eigen::umeyama(Eigen::MatrixXd(from.topRows(d)),
+                                                Eigen::MatrixXd(to.topRows(d)), scale && spread);
+  Similarity result;
+  result.scale = fitted.col(0).head(d).norm();
+  result.rotation.topLeftCorner(d, d) = fitted.topLeftCorner(d, d) / result.scale;
+  result.translation.head(d) = fitted.col(d).head(d);
+  return result;
+}
+
+void align(std::vector<SE3>& poses, const Similarity& to) {
+  const Eigen::Quaterniond rotation(to.rotation);
+  for (SE3& pose : poses) {
+    pose.t = (to.scale * (to.rotation * pose.t) + to.translation).eval();
+    pose.q = rotation * pose.q;
+  }
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+Trajectory trajectory(const Graph& graph) {
+  Trajectory result;
+  std::vector<double> numbers;
+  std::optional<Problem> problem;
+  Values values;
+  if (graph.edges_only) {
+    problem = make_problem(graph);
+    values = initial_values(*problem);
+  }
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) != Role::pose) continue;
+    if (problem) {
+      numbers = estimate_numbers(*problem, values, v);
+    } else {
+      vertex_numbers(graph, v, numbers);
+    }
+    result.id.push_back(graph.id[v]);
+    result.pose.push_back(pose_of(graph, v, numbers));
+  }
+  return result;
+}
+
+std::optional<Alignment> alignment(std::string_view name) {
+  if (name == "none") return Alignment::none;
+  if (name == "se") return Alignment::se;
+  if (name == "sim") return Alignment::sim;
+  return std::nullopt;
+}
+
+TrajectoryError trajectory_error(const Trajectory& estimate, const Trajectory& reference,
+                                 Alignment kind) {
+  auto [moved, fixed] = match(estimate, reference);
+  TrajectoryError result{moved.size(), {}, {}};
+  if (moved.empty()) return result;
+  if (kind != Alignment::none)
+    align(moved, fit(positions(moved), positions(fixed), kind == Alignment::sim));
+  std::vector<double> absolute, relative;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    absolute.push_back((moved[i].t - fixed[i].t).norm());
+    if (i == 0) continue;
+    const SE3 step = between(moved[i - 1], moved[i]);
+    relative.push_back(between(between(fixed[i - 1], fixed[i]), step).t.norm());
+  }
+  result.ate = root_mean_square(absolute);
+  if (!relative.empty()) result.rpe = root_mean_square(relative);
+  return result;
+}
+
+}  // namespace sg

@@ -1,0 +1,43 @@
+// How far a trajectory is from a reference: the measures of the TUM benchmark (Sturm et al., A
+// benchmark for the evaluation of RGB-D SLAM systems, 2012) with the definitions that the tool evo
+// documents. Both are root mean squares, in the reference's unit of length.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "lib/geometry/se3.h"
+#include "lib/graph/graph.h"
+
+namespace sg {
+
+struct Trajectory {
+  std::vector<Id> id;     // ascending
+  std::vector<SE3> pose;  // side by side with them: camera or robot to world
+};
+
+// The poses of a graph at the estimates of its file, by id; poses of the plane lie in z = 0. Of an
+// edges-only file: as composed along its edges. Throws an input Error for poses of another kind.
+Trajectory trajectory(const Graph& graph);
+
+enum class Alignment : std::uint8_t { none, se, sim };
+// The kind of that name, if there is one.
+std::optional<Alignment> alignment(std::string_view name);
+
+struct TrajectoryError {
+  std::size_t matched = 0;    // poses that both have
+  std::optional<double> ate;  // nothing without a matched pose
+  std::optional<double> rpe;  // nothing with less than two
+};
+
+// Poses are matched by id. The estimate is moved onto the reference by the rigid motion (se) or
+// similarity (sim) that minimizes the squared distances of matched positions (Umeyama 1991; in the
+// plane where all positions lie in z = 0), or stays (none).
+//   ate: of the distances between matched positions;
+//   rpe: of |trans((Q_i^-1 Q_i+1)^-1 (P_i^-1 P_i+1))| over consecutive matched poses, Q of the
+//        reference and P of the aligned estimate. Only the scale of the alignment matters to it.
+TrajectoryError trajectory_error(const Trajectory& estimate, const Trajectory& reference,
+                                 Alignment alignment);
+
+}  // namespace sg

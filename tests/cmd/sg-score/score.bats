@@ -1,0 +1,75 @@
+load ../common
+
+setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
+
+score() { sg-score --no-header "$@" | tr '\t' ' '; }
+
+# near A B: equal to nine digits
+near() { awk -v a="$1" -v b="$2" 'BEGIN {d = a - b; exit !(d * d <= 1e-18 * (1 + b * b))}'; }
+
+edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; done; }
+
+@test "a tree has one spanning tree, a cycle of n has n, K4 has 16" {
+  near "$(score -f log_trees <(edges 0-1 1-2 2-3))" 0
+  near "$(score -f log_trees <(edges 0-1 1-2 2-3 3-0))" 1.386294361119891
+  near "$(score -f log_trees <(edges 0-1 1-2 2-3 3-0 0-2 1-3))" 2.772588722239781
+  near "$(score -f lambda2 <(edges 0-1 1-2 2-3 3-0 0-2 1-3))" 4
+}
+
+@test "a graph in two parts, and a single vertex" {
+  [ "$(score -f log_trees,lambda2,dopt <(edges 0-1 2-3))" = "-inf 0 -inf" ]
+  [ "$(sg-score --json -f log_trees,lambda2 <(edges 0-1 2-3))" = '{"log_trees": null, "lambda2": 0}' ]
+  echo 'VERTEX_SE2 0 0 0 0' >one.g2o
+  [ "$(score -f log_trees,lambda2,dopt,ec one.g2o)" = "0  0 27" ]
+}
+
+@test "ec is what sg-ec says" {
+  for method in colamd id; do
+    [ "$(score -m $method -f order,ec walk.g2o)" = "$(sg-ec --no-header -m $method -f order,ec walk.g2o | tr '\t' ' ')" ]
+  done
+}
+
+@test "observations a landmark" {
+  [ "$(score -f avg_obs walk.g2o)" = 3 ]
+  [ "$(sg-dec -r 3 walk.g2o | score -f avg_obs)" = 1 ]
+  [ "$(score -f avg_obs <(edges 0-1))" = "" ]
+}
+
+@test "default columns" {
+  [ "$(sg-score walk.g2o | head -1 | tr '\t' ' ')" = "vertices edges log_trees lambda2 dopt avg_obs order ec" ]
+  [ "$(sg-score --reference walk.g2o walk.g2o walk.g2o | head -1 | tr '\t' ' ')" = \
+    "file vertices edges log_trees lambda2 dopt avg_obs matched ate_rmse rpe_rmse order ec" ]
+}
+
+@test "trajectory errors by hand, against a graph and a TUM file" {
+  # the walk with pose 4 off by (0, 3): errors 0 0 0 0 3, and steps 0 0 0 3
+  sed 's/^VERTEX_SE2 4 4 0 0/VERTEX_SE2 4 4 3 0/' walk.g2o >off.g2o
+  near "$(score --align none -f ate_rmse --reference walk.g2o off.g2o)" 1.3416407864998738  # sqrt(9/5)
+  near "$(score --align none -f rpe_rmse --reference walk.g2o off.g2o)" 1.5                 # sqrt(9/4)
+  printf '# t x y z qx qy qz qw\n%s\n' "0 0 0 0 0 0 0 1" "4 4 0 0 0 0 0 1" >walk.tum
+  near "$(score --align none -f ate_rmse --reference walk.tum off.g2o)" 2.1213203435596424  # sqrt(9/2)
+  [ "$(score -f matched --reference walk.tum off.g2o)" = 2 ]
+  # two points of distance 5 against 4: half a metre at each end, none with scale
+  near "$(score -f ate_rmse --reference walk.tum off.g2o)" 0.5
+  near "$(score --align sim -f ate_rmse --reference walk.tum off.g2o)" 0
+}
+
+@test "wrong calls and inputs" {
+  fails 2 "sg-score: column 'ate_rmse' wants a --reference (see sg-score --help)" sg-score -f ate_rmse walk.g2o
+  fails 1 "sg-score: no.g2o: No such file or directory" sg-score --reference no.g2o walk.g2o
+  echo '0.5 0 0 0 0 0 0 1' >half.tum
+  fails 1 "sg-score: half.tum:1: a time that is no vertex id: poses are matched by id" \
+    sg-score --reference half.tum walk.g2o
+  run sg-score --align sideways walk.g2o
+  [ "$status" -eq 2 ]
+}
+
+@test "public graphs: keeping all trees of intel, and less of them" {
+  need_data
+  all=$(score -f log_trees "$SGTOOLS_DATA/intel.g2o")
+  greedy=$(sg-tgreedy -r 4 "$SGTOOLS_DATA/intel.g2o" | score -f log_trees)
+  random=$(sg-rand -r 4 "$SGTOOLS_DATA/intel.g2o" | score -f log_trees)
+  awk -v a="$all" -v g="$greedy" -v r="$random" 'BEGIN {exit !(a > g && g > r && r > 0)}'
+  # what tgreedy's trace says is what sg-score measures
+  near "$greedy" "$(sg-tgreedy -r 4 --trace "$SGTOOLS_DATA/intel.g2o" | tail -1 | cut -f6)"
+}

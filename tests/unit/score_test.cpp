@@ -1,0 +1,290 @@
+// What sg-score measures, against formulas, dense matrices, and numbers worked out by hand.
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "formats/formats.h"
+#include "formats/tum.h"
+#include "lib/factor/linearize.h"
+#include "lib/order/order.h"
+#include "lib/score/connectivity.h"
+#include "lib/score/dopt.h"
+#include "lib/score/trajectory.h"
+
+using namespace sg;
+using Eigen::MatrixXd;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pi = std::numbers::pi;
+constexpr auto unit = TreeWeights::unit;
+
+using Random = std::mt19937;
+
+Graph parse(const std::string& text) {
+  return read_graph_text(text_of(text), "test.g2o");
+}
+
+struct Edge {
+  int u, v;
+  double translation = 1, rotation = 1;
+};
+
+std::string text_of_graph(int n, const std::vector<Edge>& edges) {
+  std::string text;
+  for (int i = 0; i < n; ++i) text += "VERTEX_SE2 " + std::to_string(i) + " 0 0 0\n";
+  for (const Edge& e : edges) {
+    const std::string t = std::to_string(e.translation);
+    text += "EDGE_SE2 " + std::to_string(e.u) + " " + std::to_string(e.v) + " 0 0 0 " + t +
+            " 0 0 " + t + " 0 " + std::to_string(e.rotation) + "\n";
+  }
+  return text;
+}
+Graph graph_of(int n, const std::vector<Edge>& edges) {
+  return parse(text_of_graph(n, edges));
+}
+
+std::vector<Edge> path(int n) {
+  std::vector<Edge> edges;
+  for (int i = 1; i < n; ++i) edges.push_back({i - 1, i});
+  return edges;
+}
+std::vector<Edge> cycle(int n) {
+  auto edges = path(n);
+  edges.push_back({n - 1, 0});
+  return edges;
+}
+std::vector<Edge> complete(int n) {
+  std::vector<Edge> edges;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) edges.push_back({i, j});
+  }
+  return edges;
+}
+
+double log_det(const Graph& graph) {
+  const Problem problem = make_problem(graph);
+  const Order order = elimination_order("colamd", problem.variables.pattern);
+  return log_det_information(problem, file_values(problem), order);
+}
+
+Trajectory flat(const std::vector<std::array<double, 3>>& poses) {
+  Trajectory result;
+  for (const auto& [x, y, theta] : poses) {
+    result.id.push_back(static_cast<Id>(result.id.size()));
+    result.pose.push_back({exp_so3({0, 0, theta}), {x, y, 0}});
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("spanning trees of known graphs", "[score]") {
+  CHECK(log_trees(graph_of(1, {}), unit) == 0);
+  CHECK(log_trees(graph_of(2, {}), unit) == -infinity);
+  CHECK(log_trees(graph_of(4, {{0, 1}, {2, 3}}), unit) == -infinity);
+  for (int n = 2; n <= 30; ++n) {
+    CHECK(log_trees(graph_of(n, path(n)), unit) == Approx(0).margin(1e-9));
+    CHECK(log_trees(graph_of(n, complete(n)), unit) == Approx((n - 2) * std::log(n)).margin(1e-9));
+    if (n > 2) CHECK(log_trees(graph_of(n, cycle(n)), unit) == Approx(std::log(n)));
+  }
+}
+
+TEST_CASE("spanning trees weigh their edges", "[score]") {
+  const double a = 1e-3, b = 1e6, c = 40, d = 2, e = 3, f = 5;
+  const Graph triangle = graph_of(3, {{0, 1, a, d}, {1, 2, b, e}, {2, 0, c, f}});
+  CHECK(log_trees(triangle, TreeWeights::translation) == Approx(std::log(a * b + b * c + c * a)));
+  CHECK(log_trees(triangle, TreeWeights::rotation) == Approx(std::log(d * e + e * f + f * d)));
+  CHECK(log_trees(triangle, TreeWeights::dopt) ==
+        Approx(2 * std::log(a * b + b * c + c * a) + std::log(d * e + e * f + f * d)));
+}
+
+TEST_CASE("fixed vertices are one node; points do not rotate", "[score]") {
+  CHECK(log_trees(parse(text_of_graph(4, cycle(4)) + "FIX 0 2\n"), unit) == Approx(std::log(4)));
+  const Graph point = parse(
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_XY 2 0 0\n"
+      "EDGE_SE2 0 1 0 0 0 7 0 0 7 0 5\nEDGE_SE2_XY 0 2 0 0 3 0 3\n");
+  CHECK(log_trees(point, unit) == Approx(0).margin(1e-12));
+  CHECK(log_trees(point, TreeWeights::translation) == Approx(std::log(21)));
+  CHECK(log_trees(point, TreeWeights::rotation) == Approx(std::log(5)));
+  CHECK(log_trees(point, TreeWeights::dopt) == Approx(2 * std::log(21) + std::log(5)));
+  CHECK(average_observations(point) == Approx(1));
+  CHECK(!average_observations(graph_of(2, path(2))));
+}
+
+TEST_CASE("algebraic connectivity of known graphs", "[score]") {
+  CHECK(!algebraic_connectivity(graph_of(1, {}), unit));
+  CHECK(algebraic_connectivity(graph_of(2, {}), unit) == 0);
+  CHECK(algebraic_connectivity(graph_of(4, {{0, 1}, {2, 3}}), unit) == 0);
+  CHECK(!algebraic_connectivity(graph_of(2, path(2)), TreeWeights::dopt));
+  for (int n : {2, 3, 10, 64, 65, 100, 700}) {
+    CHECK(*algebraic_connectivity(graph_of(n, path(n)), unit) ==
+          Approx(2 - 2 * std::cos(pi / n)).epsilon(1e-8));
+  }
+  for (int n : {3, 10, 65, 300}) {  // a double eigenvalue
+    CHECK(*algebraic_connectivity(graph_of(n, cycle(n)), unit) ==
+          Approx(2 - 2 * std::cos(2 * pi / n)).epsilon(1e-8));
+  }
+  for (int n : {2, 5, 70}) {
+    CHECK(*algebraic_connectivity(graph_of(n, complete(n)), unit) == Approx(n).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("the iteration for connectivity gives what dense eigenvalues give", "[score]") {
+  Random random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    const int n = std::uniform_int_distribution<int>(65, 150)(random);
+    auto edges = path(n);
+    std::uniform_int_distribution<int> node(0, n - 1);
+    for (int k = 0; k < n; ++k) edges.push_back({node(random), node(random)});
+    MatrixXd laplacian = MatrixXd::Zero(n, n);
+    for (Edge& e : edges) {
+      e.translation = std::pow(10, std::uniform_real_distribution<double>(-3, 3)(random));
+      e.translation = std::stod(std::to_string(e.translation));
+      if (e.u == e.v) continue;
+      laplacian(e.u, e.u) += e.translation, laplacian(e.v, e.v) += e.translation;
+      laplacian(e.u, e.v) -= e.translation, laplacian(e.v, e.u) -= e.translation;
+    }
+    const double expected = Eigen::SelfAdjointEigenSolver<MatrixXd>(laplacian).eigenvalues()[1];
+    CHECK(*algebraic_connectivity(graph_of(n, edges), TreeWeights::translation) ==
+          Approx(expected).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("D-optimality is the log determinant of the dense system", "[score]") {
+  CHECK(log_det(graph_of(1, {})) == 0);
+  CHECK(log_det(graph_of(2, {{0, 1, 4, 9}})) == Approx(std::log(4 * 4 * 9)));
+  CHECK(log_det(graph_of(3, {{0, 1}})) == -infinity);
+  Random random(2);
+  for (int trial = 0; trial < 30; ++trial) {
+    const int n = std::uniform_int_distribution<int>(2, 12)(random);
+    auto edges = path(n);
+    std::uniform_int_distribution<int> node(0, n - 1);
+    for (int k = 0; k < n; ++k) {
+      const int u = node(random), v = node(random);
+      if (u != v) edges.push_back({u, v, 1.0 + k, 2.0 + k});
+    }
+    std::string text;
+    std::uniform_real_distribution<double> place(-3, 3);
+    for (int i = 0; i < n; ++i) {
+      text += "VERTEX_SE2 " + std::to_string(i) + " " + std::to_string(place(random)) + " " +
+              std::to_string(place(random)) + " " + std::to_string(place(random)) + "\n";
+    }
+    const std::string measured = text_of_graph(n, edges);
+    const Graph graph = parse(text + measured.substr(measured.find("EDGE")));
+    const Problem problem = make_problem(graph);
+    LinearSystem system = make_linear_system(problem);
+    linearize(problem, file_values(problem), {}, system);
+    MatrixXd information = MatrixXd::Zero(3 * n, 3 * n);
+    for (Index r = 0; r < system.pattern->rows(); ++r) {
+      const auto row = system.pattern->row(r);
+      MatrixXd jacobian = MatrixXd::Zero(system.height[r], 3 * n);
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        jacobian.middleCols(3 * row[k], 3) = Eigen::Map<const MatrixXd>(
+            system.block(r) + 3 * k * system.height[r], system.height[r], 3);
+      }
+      information += jacobian.transpose() * jacobian;
+    }
+    CHECK(log_det(graph) == Approx(std::log(information.determinant())));
+    // The first pose is held: its own block is the identity, and nothing else touches it.
+    const double reduced = information.bottomRightCorner(3 * n - 3, 3 * n - 3).determinant();
+    CHECK(log_det(graph) == Approx(std::log(reduced)));
+  }
+}
+
+TEST_CASE("trajectory errors worked out by hand", "[score]") {
+  const Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  const Trajectory bent = flat({{0, 0, 0}, {1, 0, 0}, {2, 3, 0}});
+  const auto plain = trajectory_error(bent, line, Alignment::none);
+  CHECK(plain.matched == 3);
+  CHECK(*plain.ate == Approx(std::sqrt(9.0 / 3)));
+  CHECK(*plain.rpe == Approx(std::sqrt(9.0 / 2)));  // errors of the two steps: 0 and (0, 3)
+
+  // Turned by 90 degrees and moved; the relative motions are the same.
+  const Trajectory moved = flat({{5, 1, pi / 2}, {5, 2, pi / 2}, {5, 3, pi / 2}});
+  CHECK(*trajectory_error(moved, line, Alignment::se).ate == Approx(0).margin(1e-12));
+  CHECK(*trajectory_error(moved, line, Alignment::none).rpe == Approx(0).margin(1e-12));
+  // Distances to the line: (5,1) (4,2) (3,3).
+  CHECK(*trajectory_error(moved, line, Alignment::none).ate ==
+        Approx(std::sqrt((26 + 20 + 18) / 3.0)));
+
+  // A cross stretched in x: by symmetry the best rotation is none.
+  const Trajectory cross = flat({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}});
+  const Trajectory wide = flat({{2, 0, 0}, {-2, 0, 0}, {0, 1, 0}, {0, -1, 0}});
+  CHECK(*trajectory_error(wide, cross, Alignment::se).ate == Approx(std::sqrt(0.5)));
+  // Scale 6/10: residuals 0.2, 0.2, 0.4, 0.4.
+  CHECK(*trajectory_error(wide, cross, Alignment::sim).ate == Approx(std::sqrt(0.1)));
+  // Steps of the wide one, scaled: (-2.4, 0), (1.2, 0.6), (0, -1.2); of the cross: (-2, 0), (1, 1),
+  // (0, -2). Differences squared: 0.16, 0.04 + 0.16, 0.64.
+  CHECK(*trajectory_error(wide, cross, Alignment::sim).rpe == Approx(std::sqrt(1.0 / 3)));
+}
+
+TEST_CASE("alignment undoes any similarity, in the plane and in space", "[score]") {
+  Random random(3);
+  std::uniform_real_distribution<double> coordinate(-3, 3);
+  for (int trial = 0; trial < 40; ++trial) {
+    const bool planar = trial % 2 == 0;
+    const auto draw = [&] {
+      Vector6d v = Vector6d::NullaryExpr([&] { return coordinate(random) / 2; });
+      if (planar) v[2] = v[3] = v[4] = 0;
+      return exp(v);
+    };
+    Trajectory reference, estimate;
+    const SE3 motion = draw();
+    const double scale = trial % 4 < 2 ? 1 : 2.5;
+    for (Id id = 0; id < 6; ++id) {
+      reference.id.push_back(id);
+      reference.pose.push_back(draw());
+      estimate.id.push_back(id);
+      estimate.pose.push_back(compose(motion, reference.pose.back()));
+      estimate.pose.back().t *= scale;
+    }
+    const Alignment kind = scale == 1 ? Alignment::se : Alignment::sim;
+    const auto error = trajectory_error(estimate, reference, kind);
+    CHECK(*error.ate < 1e-9);
+    CHECK(*error.rpe < 1e-9);
+  }
+}
+
+TEST_CASE("poses are matched by id", "[score]") {
+  Trajectory sparse = flat({{0, 0, 0}, {2, 0, 0}});
+  sparse.id = {0, 2};
+  const Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
+  const auto error = trajectory_error(sparse, line, Alignment::se);
+  CHECK(error.matched == 2);
+  CHECK(*error.ate == Approx(0).margin(1e-12));
+  CHECK(*error.rpe == Approx(0).margin(1e-12));
+  sparse.id = {7, 9};
+  CHECK(trajectory_error(sparse, line, Alignment::sim).matched == 0);
+  CHECK(!trajectory_error(sparse, line, Alignment::sim).ate);
+  sparse.id = {3, 9};
+  for (const Alignment kind : {Alignment::none, Alignment::se, Alignment::sim}) {
+    CHECK(trajectory_error(sparse, line, kind).ate.has_value());
+    CHECK(!trajectory_error(sparse, line, kind).rpe);
+  }
+  CHECK(*trajectory_error(sparse, line, Alignment::sim).ate == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("trajectories come from graphs and from TUM files", "[score]") {
+  const Graph graph = parse("VERTEX_SE2 4 1 2 0.5\nVERTEX_XY 5 0 0\n");
+  const Trajectory planar = trajectory(graph);
+  REQUIRE(planar.id == std::vector<Id>{4});
+  CHECK(planar.pose[0].t == Eigen::Vector3d(1, 2, 0));
+  CHECK(log_so3(planar.pose[0].q).z() == Approx(0.5));
+  const Trajectory composed = trajectory(parse("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"));
+  CHECK(composed.pose[1].t == Eigen::Vector3d(1, 0, 0));
+
+  CHECK(looks_like_tum("# a comment\n\n 12 0 0 0 0 0 0 1\n"));
+  CHECK(!looks_like_tum("VERTEX_SE2 0 0 0 0\n"));
+  const auto poses = read_tum("7.000 1 2 3 0 0 0 1\r\n# x\n2 4 5 6 0 0 0 1", "t.tum");
+  REQUIRE(poses.size() == 2);
+  CHECK(poses[0].id == 2);
+  CHECK(poses[1].numbers == std::array<double, 7>{1, 2, 3, 0, 0, 0, 1});
+  CHECK_THROWS_AS(read_tum("1.5 1 2 3 0 0 0 1\n", "t.tum"), Error);
+  CHECK_THROWS_AS(read_tum("1 1 2 3 0 0 0\n", "t.tum"), Error);
+  CHECK_THROWS_AS(read_tum("1 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n", "t.tum"), Error);
+}
