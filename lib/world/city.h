@@ -14,7 +14,7 @@ struct City {
   Triangulation landmark{.observations = 1};
   double detection = 1;  // chance that a landmark in view is observed
   Sensor sensor = Sensor::xy;
-  Optics optics{.range = 5, .near = 0.1, .view = 180};
+  Optics optics{.range = 5, .near = 0.1, .view = 360};
   PoseNoise odometry_noise{.translation = 0.01, .rotation = 0.001};
   double guess_noise = 0.1;  // metres
   Guess guess = Guess::odometry;
