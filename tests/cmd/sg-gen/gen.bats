@@ -24,7 +24,7 @@ tags() { grep -v '^#' "$1" | cut -d' ' -f1 | sort | uniq -c | awk '{print $2 " "
 @test "the bytes are the same as ever" {
   # What a seed means is part of the interface: experiments are repeated by their call alone.
   sums=$(for world in $(worlds); do sg-gen $world -n 40 --no-trace-comment | md5sum | cut -c1-12; done | paste -sd' ')
-  [ "$sums" = "6160c44c1d67 bf1a4bf7c117 7955e5026ed8 d41d8cd98f00 de653f6ae88f 89166384d160 1afe22e2336d" ] || { echo "$sums" >&2; false; }
+  [ "$sums" = "6160c44c1d67 bf1a4bf7c117 7955e5026ed8 1843e76bbacb de653f6ae88f 89166384d160 1afe22e2336d" ] || { echo "$sums" >&2; false; }
 }
 
 @test "poses are as many as asked for, and ids have no gaps" {
