@@ -183,6 +183,7 @@ void solve(const sg::Command& command, const Options& options, const sg::Problem
 
 void run(const sg::Command& command, Options options) {
   parse_kernel(options.kernel);  // a wrong call is told before a long read
+  if (options.chi2 && options.runs > 0) throw sg::usage_error("--chi2 or --time, not both");
   sg::find_backend(options.backend);
   if (!options.order.empty()) sg::find_ordering(options.order);
   if (options.threads == 0) options.threads = tbb::info::default_concurrency();

@@ -107,6 +107,7 @@ near() { awk -v x="$1" -v y="$2" 'BEGIN {d = x - y; if (d < 0) d = -d; exit !(d 
     fails 2 "sg-solve: --kernel wants huber:W or cauchy:W with W above 0, not '$kernel' (see sg-solve --help)" \
       sg-solve --kernel $kernel walk.g2o
   done
+  fails 2 "sg-solve: --chi2 or --time, not both (see sg-solve --help)" sg-solve --chi2 --time 3 walk.g2o
   fails 2 "sg-solve: no backend 'x'; there are: tree, cholmod (see sg-solve --help)" sg-solve --backend x walk.g2o
 }
 
