@@ -1,5 +1,6 @@
 // sg-order: put a graph's variables in elimination order.
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 
 #include "cmd/common/command.h"
@@ -78,6 +79,12 @@ void print_improvement(const sg::Improvement& better) {
   std::cerr << "sg-order: " << better.how << ": EC " << sg::to_string(better.ec) << text;
 }
 
+void print_cost(const std::string& method, const sg::Pattern& pattern, const sg::Order& order,
+                double seconds) {
+  const std::string ec = sg::to_string(sg::elimination_complexity(pattern, order));
+  std::cerr << "sg-order: " << method << ": EC " << ec << " in " << seconds << " s of CPU time\n";
+}
+
 sg::Order computed_order(const sg::Command& command, const Options& options, const sg::Graph& graph,
                          const sg::GraphPattern& variables) {
   sg::OrderOptions order_options = sg::order_options(graph, variables);
@@ -85,7 +92,11 @@ sg::Order computed_order(const sg::Command& command, const Options& options, con
   order_options.seed = options.seed;
   order_options.budget = sg::parse_budget(options.budget);
   if (command.verbose) order_options.report = print_improvement;
-  return sg::elimination_order(options.method, variables.pattern, order_options);
+  const std::clock_t start = std::clock();
+  sg::Order order = sg::elimination_order(options.method, variables.pattern, order_options);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  if (command.verbose) print_cost(options.method, variables.pattern, order, seconds);
+  return order;
 }
 
 // The order of --apply, --last being kept all the same.
