@@ -56,6 +56,35 @@ Front front_of(Isam2& isam, const Isam2Clique& c) {
   return front;
 }
 
+// The next relinearization looks at variable j.
+void propose(Isam2& isam, Index j) {
+  if (isam.moved[j]) return;
+  isam.moved[j] = true;
+  isam.candidates.push_back(j);
+}
+
+// A landmark seen along a ray is damped, and where it cannot be seen the row says nothing of it.
+void damp_ray(Isam2& isam, Index r, double* gram) {
+  const Problem& problem = *isam.problem;
+  const Pattern& pattern = pattern_of(isam);
+  const int w = width(pattern, r);
+  const double distance = ray_distance(problem, r, isam.linearized);
+  const bool unseen = distance < nearest_seen;
+  if (unseen) std::fill_n(gram, w * w, 0.0);
+  int column = 0;
+  for (Index j : pattern.row(r)) {
+    const bool landmark =
+        problem.graph->role(problem.variables.variable_vertex[j]) == Role::landmark;
+    if (landmark && unseen) {
+      isam.unseen[j] = true;
+      propose(isam, j);
+    }
+    for (int k = 0; k < pattern.dim[j]; ++k, ++column) {
+      if (landmark) gram[column * (w + 1)] += ray_damping(distance);
+    }
+  }
+}
+
 void linearize(Isam2& isam, Index r) {
   const Pattern& pattern = pattern_of(isam);
   const int h = height(isam, r), w = width(pattern, r);
@@ -64,17 +93,13 @@ void linearize(Isam2& isam, Index r) {
   double* const gram = block + h * w;
   linearize_row(*isam.problem, isam.linearized, {}, r, block);
   kernels().gram(block, h, w, gram, gram + w * w + lane);
+  const bool ray = r < isam.problem->graph->edges() && sees_along_ray(*isam.problem, r);
+  if (ray) damp_ray(isam, r, gram);
   std::copy_n(gram, w * w, isam.grams.data() + isam.gram_at[r]);
   isam.row_update[r] = isam.updates;
-  const double damping = r < isam.problem->graph->edges() && sees_along_ray(*isam.problem, r)
-                             ? ray_damping(*isam.problem, r, isam.linearized)
-                             : 0;
   int column = 0;
   for (Index j : pattern.row(r)) {
-    const bool damped =
-        isam.problem->graph->role(isam.problem->variables.variable_vertex[j]) == Role::landmark;
     for (int k = 0; k < pattern.dim[j]; ++k, ++column) {
-      if (damped) isam.grams[isam.gram_at[r] + column * (w + 1)] += damping;
       double& floor = isam.floor[isam.problem->step_at[j] + k];
       floor = std::max(floor, vanishing * gram[column * (w + 1)]);
     }
@@ -130,7 +155,8 @@ Index relinearize(Isam2& isam) {
   moved.clear();
   for (Index j : isam.candidates) {
     isam.moved[j] = false;
-    if (largest(isam, j) < isam.options.relinearize_threshold) continue;
+    if (largest(isam, j) < isam.options.relinearize_threshold && !isam.unseen[j]) continue;
+    isam.unseen[j] = false;
     move_point(isam, j);
     moved.push_back(j);
   }
@@ -435,10 +461,7 @@ void accept(Isam2& isam, const Isam2Clique& clique) {
               isam.estimate.begin() + problem.value_at[v]);
     retract(problem.space[v], isam.step.data() + problem.step_at[j],
             isam.estimate.data() + problem.value_at[v]);
-    if (!isam.moved[j] && largest(isam, j) >= isam.options.relinearize_threshold) {
-      isam.moved[j] = true;
-      isam.candidates.push_back(j);
-    }
+    if (largest(isam, j) >= isam.options.relinearize_threshold) propose(isam, j);
   }
 }
 
@@ -477,6 +500,7 @@ Isam2 make_isam2(const Problem& problem, const Isam2Options& options) {
   isam.floor.assign(problem.step_at.back(), 0.0);
   isam.changed.assign(n, -1);
   isam.moved.assign(n, false);
+  isam.unseen.assign(n, false);
   isam.linearized.assign(problem.value_at.back(), 0.0);
   isam.estimate = isam.linearized;
   isam.row_clique.assign(pattern.rows(), -1);

@@ -63,7 +63,8 @@ struct Isam2 {
   std::vector<double> floor;      // least pivot of every scalar
   std::vector<Index> changed;     // update that last changed its step
   std::vector<bool> moved;        // is in `candidates`
-  std::vector<Index> candidates;  // variables with a step above the threshold
+  std::vector<bool> unseen;       // landmark with rows left out (landmark_point.h)
+  std::vector<Index> candidates;  // with a step above the threshold, or unseen
   Values linearized;              // linearization points, by vertex as all Values
   Values estimate;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "lib/factor/initialize.h"
@@ -11,8 +12,6 @@ namespace sg {
 namespace {
 
 using Point = std::array<double, 3>;
-
-constexpr double nearest = 0.01;  // distances below do not damp any more
 
 double along(const Ray& ray, const Point& p, std::size_t dim) {
   double sum = 0;
@@ -51,15 +50,19 @@ bool sees_along_ray(const Problem& problem, Index e) {
   return problem.model[e]->rays != nullptr;
 }
 
-double ray_damping(const Problem& problem, Index e, const Values& values) {
+double ray_distance(const Problem& problem, Index e, const Values& values) {
   const auto ends = problem.graph->edge(e);
   const auto landmark =
       std::ranges::find_if(ends, [&](Index v) { return problem.graph->role(v) == Role::landmark; });
   const auto dim = static_cast<std::size_t>(problem.graph->dim(*landmark));
   Point point{};
   std::copy_n(values.data() + problem.value_at[*landmark], dim, point.begin());
-  const double distance = along(ray_of(problem, e, values), point, dim);
-  return 1 / std::max(distance * distance, nearest * nearest);
+  return along(ray_of(problem, e, values), point, dim);
+}
+
+double ray_damping(double distance) {
+  const double damped = std::max(std::abs(distance), nearest_seen);
+  return 1 / (damped * damped);
 }
 
 void move_landmark(const Problem& problem, Index v, std::span<const Index> edges,

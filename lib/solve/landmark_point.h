@@ -14,10 +14,16 @@ namespace sg {
 // Whether an edge sees a landmark along a ray.
 bool sees_along_ray(const Problem& problem, Index e);
 
-// Information that damps the landmark's step along edge e, linearized at `values`: that of a step as
-// long as its distance. It keeps elimination regular where rays are nearly parallel, and it vanishes
-// with the step.
-double ray_damping(const Problem& problem, Index e, const Values& values);
+// How far along its ray edge e has its landmark at `values`, negative behind the observer. A
+// measurement cannot be linearized at the lens or behind it (no camera sees there): below
+// `nearest_seen` it had better be left out.
+double ray_distance(const Problem& problem, Index e, const Values& values);
+constexpr double nearest_seen = 0.1;
+
+// Information that damps the landmark's step along such an edge: that of a step as long as its
+// distance. It keeps elimination regular where rays are nearly parallel or left out, and it
+// vanishes with the step.
+double ray_damping(double distance);
 
 // Moves the linearization point of landmark v (dim numbers): by the step from it, at most to where
 // that halves or doubles a distance, or to the triangulation of all rays, whichever gives its edges
