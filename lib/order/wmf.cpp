@@ -123,14 +123,12 @@ void keep_better(GreedyResult& best, GreedyResult&& other) {
 }
 
 // Where the first pass was quick: plain fill, and minimum degree, which wins on some small graphs.
-void try_cheap(const Pattern& pattern, const Adjacency& graph, const WmfOptions& options,
-               GreedyOptions greedy, GreedyResult& best) {
+void try_cheap(const Pattern& pattern, const Adjacency& graph, GreedyOptions greedy,
+               GreedyResult& best) {
   greedy.score = FillScore::plain;
   greedy.limit = best.ec;
   keep_better(best, greedy_fill(pattern, graph, greedy));
-  OrderOptions order_options;
-  order_options.last = options.last;
-  Order amd = elimination_order("amd", pattern, order_options);
+  Order amd = elimination_order("amd", pattern);
   const Wide ec = elimination_complexity(pattern, amd);
   keep_better(best, {std::move(amd), ec, 0});
 }
@@ -173,9 +171,10 @@ Order wmf(const Pattern& pattern, const WmfOptions& options) {
   greedy.stage = stages(pattern.variables(), options.last);
   greedy.seed = options.seed;
   GreedyResult best = greedy_fill(pattern, graph, greedy);
+  if (!options.last.empty()) return std::move(best.order);
   const std::int64_t size = entries(graph);
   if (best.work <= 25 * size) {
-    try_cheap(pattern, graph, options, greedy, best);
+    try_cheap(pattern, graph, greedy, best);
   } else if (size > 20 * std::int64_t{graph.size()} && best.work <= 100 * size) {
     try_bounds(pattern, graph, greedy, best);
   }

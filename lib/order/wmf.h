@@ -26,7 +26,8 @@
 // around. Ties go to the lowest index, or by seed.
 //
 // No greedy is best everywhere. Where the pass was quick there is time to try plain fill and AMD,
-// and on a dense graph a pass by bounds alone (below); the least EC wins.
+// and on a dense graph a pass by bounds alone (below); the least EC wins. With `last` it is one pass:
+// that form orders parts of a graph anew at every step of a replay, where time is short.
 //
 // Exactness. While the graph is small enough, fill is exact, kept up to date edge by edge
 // (fill_graph.h). When the work for that has grown past a fixed multiple of the size of the input,
