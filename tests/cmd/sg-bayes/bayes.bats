@@ -47,7 +47,7 @@ check_tree() {
 }
 
 @test "wrong calls" {
-  run -2 sg-bayes -m best figure1.g2o
+  run -2 sg-bayes -m nonsense figure1.g2o
   run -2 sg-bayes -f ec figure1.g2o
   run -1 sg-bayes missing.g2o
 }
