@@ -14,6 +14,7 @@
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -86,21 +87,32 @@ Text unpacked(Text text, const std::string& path) {
   return text;
 }
 
-// All that a descriptor gives. read(2) itself, since std::istream hides the reason for a failure.
-std::string drain(int descriptor, const std::string& path) {
-  std::string text;
-  std::size_t size = 0;
+struct Free {
+  void operator()(char* bytes) const { std::free(bytes); }
+};
+
+// All that a descriptor gives. read(2) itself, since std::istream hides the reason for a failure;
+// realloc, since it moves large blocks without touching them and leaves what lies unused out of
+// memory: a text that came through a pipe takes no more than its size.
+Text drain(int descriptor, const std::string& path) {
+  std::unique_ptr<char, Free> bytes;
+  std::size_t size = 0, capacity = 0;
   while (true) {
-    if (text.size() - size < (1U << 16))
-      text.resize(std::max<std::size_t>(1U << 20, text.size() * 2));
-    const ssize_t count = ::read(descriptor, text.data() + size, text.size() - size);
+    if (capacity - size < (1U << 16)) {
+      capacity = std::max<std::size_t>(1U << 20, capacity * 2);
+      auto* larger = static_cast<char*>(std::realloc(bytes.get(), capacity));
+      if (!larger) throw std::bad_alloc();
+      static_cast<void>(bytes.release());  // realloc has freed it
+      bytes.reset(larger);
+    }
+    const ssize_t count = ::read(descriptor, bytes.get() + size, capacity - size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw input_error(path, 0, std::strerror(errno));
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
   }
-  text.resize(size);
-  return text;
+  const std::string_view view(bytes.get(), size);
+  return {std::shared_ptr<const char>(bytes.release(), Free()), view};
 }
 
 Text read_path(const std::string& path) {
@@ -114,14 +126,13 @@ Text read_path(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw input_error(path, 0, std::strerror(errno));
   const std::shared_ptr<void> close_later(nullptr, [descriptor](void*) { ::close(descriptor); });
-  return text_of(drain(descriptor, path));
+  return drain(descriptor, path);
 }
 
 }  // namespace
 
 Text read_text(const std::string& path) {
-  if (path == "-")
-    return unpacked(text_of(drain(STDIN_FILENO, input_name(path))), input_name(path));
+  if (path == "-") return unpacked(drain(STDIN_FILENO, input_name(path)), input_name(path));
   try {
     return unpacked(read_path(path), path);
   } catch (const std::ios_base::failure& error) {
