@@ -1,11 +1,11 @@
-// A block of numbers on a cache line's boundary, for frontal matrices.
+// Numbers on a cache line's boundary, for frontal matrices.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
-#include <utility>
+#include <vector>
 
 namespace sg {
 
@@ -16,14 +16,6 @@ class Arena {
       : numbers_(static_cast<double*>(::operator new(size * sizeof(double), alignment))),
         size_(size) {
     for (std::size_t i = 0; i < size; ++i) numbers_[i] = 0;
-  }
-
-  // At least `size` numbers from now on; those that were there stay.
-  void grow(std::size_t size) {
-    if (size <= size_) return;
-    Arena larger(std::max(size, 2 * size_));
-    std::copy_n(data(), size_, larger.data());
-    *this = std::move(larger);
   }
 
   double* data() { return numbers_.get(); }
@@ -37,6 +29,27 @@ class Arena {
   };
   std::unique_ptr<double[], Release> numbers_;
   std::size_t size_ = 0;
+};
+
+// An array that grows by chunks and never moves: numbers within a chunk lie side by side, and so do
+// all that one call of grow() added.
+class ChunkedArena {
+ public:
+  static constexpr std::int64_t chunk = 1 << 17;  // a megabyte
+
+  // At least `size` numbers from now on.
+  void grow(std::int64_t size) {
+    const auto missing = (size + chunk - 1) / chunk - static_cast<std::int64_t>(base_.size());
+    if (missing <= 0) return;
+    double* const begin = parts_.emplace_back(missing * chunk).data();
+    for (std::int64_t k = 0; k < missing; ++k) base_.push_back(begin + k * chunk);
+  }
+
+  double* at(std::int64_t offset) { return base_[offset / chunk] + offset % chunk; }
+
+ private:
+  std::vector<Arena> parts_;
+  std::vector<double*> base_;  // of every chunk
 };
 
 }  // namespace sg

@@ -128,14 +128,12 @@ void sum_up(const BayesTree& tree, const std::vector<Index>& clique,
   result.frontal_dim.assign(cliques, 0);
   result.separator_dim.assign(cliques, 0);
   result.ec.assign(cliques, 0);
-  result.merged.assign(cliques, 0);
   for (Index c = 0; c < tree.cliques(); ++c) {
     const Index k = clique[c];
     result.frontal_dim[k] += static_cast<int>(tree.frontal_dim[c]);
     if (target[c] == c)
       result.separator_dim[k] = static_cast<int>(tree.total_dim[c] - tree.frontal_dim[c]);
     result.ec[k] += tree.frontal_dim[c] * tree.total_dim[c] * tree.total_dim[c];
-    ++result.merged[k];
   }
 }
 

@@ -27,7 +27,6 @@ struct CliqueTree {
   std::vector<int> frontal_dim;        // C, scalars
   std::vector<int> separator_dim;      // C, scalars
   std::vector<std::int64_t> ec;        // C, its share of EC_BT
-  std::vector<Index> merged;           // C, cliques of the Bayes tree in it
   std::vector<Index> row_clique;       // m: where every row is assembled, -1 for an empty row
 
   Index cliques() const { return static_cast<Index>(parent.size()); }

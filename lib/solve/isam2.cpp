@@ -51,7 +51,7 @@ Offset number_size(const Isam2Clique& c) {
 }
 
 Front front_of(Isam2& isam, const Isam2Clique& c) {
-  Front front{isam.numbers.data() + c.numbers, nullptr, c.f, c.f + c.s + 1};
+  Front front{isam.numbers.at(c.numbers), nullptr, c.f, c.f + c.s + 1};
   front.u = front.l + front.size_l();
   return front;
 }
@@ -142,8 +142,8 @@ void move_point(Isam2& isam, Index j) {
     std::copy(isam.estimate.begin() + problem.value_at[v],
               isam.estimate.begin() + problem.value_at[v + 1], point);
   }
-  std::fill(isam.step.begin() + problem.step_at[j], isam.step.begin() + problem.step_at[j + 1],
-            0.0);
+  for (Index k = problem.step_at[j]; k < problem.step_at[j + 1]; ++k)
+    isam.step[k] = isam.told[k] = 0;
 }
 
 // Moves the linearization points of the variables that have gone too far, linearizes their rows
@@ -218,7 +218,7 @@ void take_out(Isam2& isam) {
     work.variables.insert(work.variables.end(), frontals.begin(), frontals.end());
     work.rows.insert(work.rows.end(), rows.begin(), rows.end());
     isam.ec_bt -= static_cast<Wide>(clique.ec);
-    isam.clique_count -= clique.merged;
+    --isam.clique_count;
     isam.list_pool.give(clique.lists, list_size(clique));
     isam.number_pool.give(clique.numbers, number_size(clique));
     isam.free_cliques.push_back(c);
@@ -326,14 +326,13 @@ void make_cliques(Isam2& isam, const CliqueTree& tree) {
     clique.f = tree.frontal_dim[k];
     clique.s = tree.separator_dim[k];
     clique.ec = tree.ec[k];
-    clique.merged = tree.merged[k];
     clique.made = isam.updates;
     clique.numbers = isam.number_pool.take(number_size(clique));
     isam.ec_bt += static_cast<Wide>(clique.ec);
-    isam.clique_count += clique.merged;
+    ++isam.clique_count;
     link(isam, work.made[k], tree.parent[k] < 0 ? -1 : work.made[tree.parent[k]]);
   }
-  isam.numbers.grow(isam.number_pool.end() + lane);
+  isam.numbers.grow(isam.number_pool.end());
   for (std::size_t i = 0; i < work.orphans.size(); ++i)
     link(isam, work.orphans[i], work.made[tree.row_clique[factors + i]]);
 }
@@ -425,7 +424,8 @@ bool separator_changed(const Isam2& isam, const Isam2Clique& clique) {
                              [&](Index j) { return isam.changed[j] == isam.updates; });
 }
 
-// Solves for the frontal variables into work.numbers; returns their largest change.
+// Solves for the frontal variables into work.numbers; returns how far, at most, they are from what
+// was last passed down.
 double solve(Isam2& isam, const Isam2Clique& clique, const Kernels& kernel) {
   const Front front = front_of(isam, clique);
   std::vector<double>& x = isam.work.numbers;
@@ -441,9 +441,20 @@ double solve(Isam2& isam, const Isam2Clique& clique, const Kernels& kernel) {
   row = 0;
   for (Index j : frontals_of(isam, clique)) {
     for (Index k = at[j]; k < at[j + 1]; ++k)
-      change = std::max(change, std::abs(x[row++] - isam.step[k]));
+      change = std::max(change, std::abs(x[row++] - isam.told[k]));
   }
   return change;
+}
+
+// Passes the step of variable j down if it is far enough from what was passed before.
+void tell(Isam2& isam, Index j) {
+  const auto begin = isam.problem->step_at[j], end = isam.problem->step_at[j + 1];
+  double change = 0;
+  for (Index k = begin; k < end; ++k)
+    change = std::max(change, std::abs(isam.step[k] - isam.told[k]));
+  if (change < isam.options.wildfire_threshold) return;
+  std::copy(isam.step.begin() + begin, isam.step.begin() + end, isam.told.begin() + begin);
+  isam.changed[j] = isam.updates;
 }
 
 // Takes the solution in work.numbers over, and brings the estimates up to date.
@@ -454,7 +465,7 @@ void accept(Isam2& isam, const Isam2Clique& clique) {
     const int dim = pattern_of(isam).dim[j];
     std::copy_n(x, dim, isam.step.begin() + problem.step_at[j]);
     x += dim;
-    isam.changed[j] = isam.updates;
+    tell(isam, j);
     const Index v = problem.variables.variable_vertex[j];
     std::copy(isam.linearized.begin() + problem.value_at[v],
               isam.linearized.begin() + problem.value_at[v + 1],
@@ -497,6 +508,7 @@ Isam2 make_isam2(const Problem& problem, const Isam2Options& options) {
   isam.rows_of = columns(pattern);
   isam.clique.assign(n, -1);
   isam.step.assign(problem.step_at.back(), 0.0);
+  isam.told = isam.step;
   isam.floor.assign(problem.step_at.back(), 0.0);
   isam.changed.assign(n, -1);
   isam.moved.assign(n, false);
@@ -536,7 +548,7 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
   take_out(isam);
   report.reeliminated = static_cast<Index>(work.variables.size());
   make_pattern(isam);
-  make_cliques(isam, clique_tree(work.pattern, order_affected(isam, rows)));
+  make_cliques(isam, clique_tree(work.pattern, order_affected(isam, rows), false));
   for (Index c : work.made) eliminate(isam, c, kernels(), report);
   std::sort(report.undetermined.begin(), report.undetermined.end());
   if (report.undetermined.empty()) solve_down(isam);

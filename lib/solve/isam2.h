@@ -46,7 +46,6 @@ struct Isam2Clique {
   Offset numbers = 0;
   int f = 0, s = 0;     // scalars
   std::int64_t ec = 0;  // share of EC_BT
-  Index merged = 0;     // cliques of the Bayes tree in it (clique_tree.h)
   Index made = -1;      // in which update
   Index removed = -1;   // in which update
 };
@@ -60,8 +59,9 @@ struct Isam2 {
   Columns rows_of;                // all rows that a variable will ever have
   std::vector<Index> clique;      // where it is frontal, -1 before it enters
   std::vector<double> step;       // from the linearization point
+  std::vector<double> told;       // step that was last passed down, within the wildfire threshold
   std::vector<double> floor;      // least pivot of every scalar
-  std::vector<Index> changed;     // update that last changed its step
+  std::vector<Index> changed;     // update that last passed its step down
   std::vector<bool> moved;        // is in `candidates`
   std::vector<bool> unseen;       // landmark with rows left out (landmark_point.h)
   std::vector<Index> candidates;  // with a step above the threshold, or unseen
@@ -76,14 +76,15 @@ struct Isam2 {
 
   std::vector<Isam2Clique> cliques;
   std::vector<Index> free_cliques;
-  Pool list_pool, number_pool;
+  Pool list_pool;
+  Pool number_pool{ChunkedArena::chunk};
   std::vector<Index> lists;
-  Arena numbers;
+  ChunkedArena numbers;
 
   Index variables = 0;  // that have entered
   Index rows = 0;
   Wide ec_bt = 0;
-  Index clique_count = 0;  // of the Bayes tree
+  Index clique_count = 0;
 
   // Scratch of an update; kept so that nothing is allocated again.
   struct Work {

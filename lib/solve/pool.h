@@ -1,6 +1,7 @@
 // Room in a growing array for blocks that come and go: sizes are rounded up to a few classes, and a
 // block that is given back serves the next one of its class. In the steady state nothing is
-// allocated.
+// allocated. With a chunk size, no block lies across a multiple of it unless it is larger and
+// begins at one, so that the array may grow by chunks (arena.h).
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,8 @@ namespace sg {
 
 class Pool {
  public:
+  explicit Pool(std::int64_t chunk = std::int64_t{1} << 62) : chunk_(chunk) {}
+
   // Where a block of `size` items begins; `size` is at least 1.
   std::int64_t take(std::int64_t size) {
     std::vector<std::int64_t>& free = free_of(size);
@@ -20,9 +23,10 @@ class Pool {
       free.pop_back();
       return begin;
     }
-    const std::int64_t begin = end_;
+    const std::int64_t left = chunk_ - end_ % chunk_;
+    if (rounded(size) > left) end_ += left % chunk_;
     end_ += rounded(size);
-    return begin;
+    return end_ - rounded(size);
   }
 
   // `size` as it was taken.
@@ -46,6 +50,7 @@ class Pool {
   }
 
   std::vector<std::vector<std::int64_t>> free_;  // beginnings, by class
+  std::int64_t chunk_;
   std::int64_t end_ = 0;
 };
 

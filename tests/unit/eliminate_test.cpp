@@ -274,11 +274,9 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
     for (const bool relaxed : {false, true}) {
       const sg::CliqueTree tree = sg::clique_tree(system.pattern, order, relaxed);
       sg::Wide ec_bt = 0;
-      sg::Index merged = 0;
       for (std::int64_t ec : tree.ec) ec_bt += ec;
-      for (sg::Index k : tree.merged) merged += k;
       CHECK(ec_bt == score.ec_bt);
-      CHECK(merged == score.cliques);
+      CHECK(tree.cliques() <= score.cliques);
       if (!relaxed) CHECK(tree.cliques() == score.cliques);
       // What a clique passes on lies within its parent.
       for (sg::Index c = 0; c < tree.cliques(); ++c) {

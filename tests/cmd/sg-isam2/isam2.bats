@@ -1,0 +1,90 @@
+# sg-isam2: rows, columns, the final graph, and what ends a replay.
+load ../common
+
+setup() {
+  cd "$BATS_TEST_TMPDIR"
+}
+
+# chain N: N poses a metre apart, odometry only.
+chain() {
+  for ((k = 1; k < $1; ++k)); do echo "EDGE_SE2 $((k - 1)) $k 1 0 0 100 0 0 100 0 100"; done
+}
+
+@test "a row a step, with the columns that cost nothing" {
+  sg-isam2 "$TESTDATA/walk.g2o" > rows.tsv
+  [ "$(head -n 1 rows.tsv)" = "$(printf 'step\tvariables\tfactors\tec_bt\tupdate_s\treeliminated\trelinearized\tcliques')" ]
+  [ "$(wc -l < rows.tsv)" -eq 6 ]
+}
+
+@test "columns that cost time come when they are asked for" {
+  sg-isam2 --colamd --chi2 --batch "$TESTDATA/walk.g2o" > rows.tsv
+  [ "$(head -n 1 rows.tsv | cut -f 5,10,11)" = "$(printf 'ec_colamd\tchi2\tbatch_s')" ]
+  [ "$(awk 'NF != 11' rows.tsv | wc -l)" -eq 0 ]
+  [ "$(sg-isam2 -f ec_colamd --no-header "$TESTDATA/walk.g2o" | tail -n 1)" -gt 0 ]
+}
+
+@test "ec_colamd is what sg-ec says of the growing graph" {
+  sg-isam2 --no-header -f step,ec_colamd "$TESTDATA/types-se2.g2o" > ours.tsv
+  sg-ec --trace -m colamd --no-header -f step,ec "$TESTDATA/types-se2.g2o" > theirs.tsv
+  diff ours.tsv theirs.tsv
+}
+
+@test "odometry alone: nothing but the last clique and the new pose is eliminated" {
+  chain 100 | sg-isam2 -f reeliminated,relinearized --no-header > rows.tsv
+  [ "$(tail -n 80 rows.tsv | sort -u)" = "$(printf '3\t0')" ]
+}
+
+@test "every K-th step and the last" {
+  [ "$(chain 10 | sg-isam2 --every 4 -f step --no-header | tr '\n' ' ')" = "0 4 8 9 " ]
+}
+
+@test "-o writes the estimates and keeps the rest" {
+  grep -v ^VERTEX "$TESTDATA/types-se2.g2o" > rest.txt
+  sg-isam2 -o end.g2o "$TESTDATA/types-se2.g2o" > /dev/null
+  grep -v ^VERTEX end.g2o | grep -v '^# sg-isam2' | diff rest.txt -
+  [ "$(grep -c ^VERTEX end.g2o)" -eq "$(grep -c ^VERTEX "$TESTDATA/types-se2.g2o")" ]
+}
+
+@test "the final chi-square is that of the written graph" {
+  chi2=$(sg-isam2 -o end.g2o -f chi2 --no-header "$TESTDATA/types-se3.g2o" | tail -n 1)
+  awk -v a="$chi2" -v b="$(sg-solve --chi2 end.g2o)" 'BEGIN { exit !(a - b < 1e-6 * (1 + a) && b - a < 1e-6 * (1 + a)) }'
+}
+
+@test "--init file starts where the file is" {
+  chain 3 > edges.g2o
+  fails 1 "sg-isam2: edges.g2o: the file has no VERTEX line to start from" sg-isam2 --init file edges.g2o
+  sg-isam2 --init file "$TESTDATA/walk.g2o" > /dev/null
+}
+
+@test "a step that cannot be solved ends the replay by its number; the rows before it stand" {
+  { chain 3; echo "EDGE_SE2 3 4 1 0 0 100 0 0 100 0 100"; } > broken.g2o
+  fails 3 "sg-isam2: step 3: the system is singular: the measurements leave vertex 3 undetermined" \
+    sg-isam2 -o end.g2o broken.g2o
+  sg-isam2 -f step,variables --no-header broken.g2o > rows.tsv 2> /dev/null || true
+  [ "$(cat rows.tsv)" = "$(printf '0\t1\n1\t2\n2\t3')" ]
+  [ ! -e end.g2o ]
+}
+
+@test "a landmark seen by bearings enters with its second and stands where they meet" {
+  { echo "VERTEX_SE2 0 0 0 0"; echo "VERTEX_SE2 1 1 0 0"; echo "VERTEX_XY 2 1 1"
+    echo "EDGE_SE2 0 1 1 0 0 100 0 0 100 0 100"
+    echo "EDGE_BEARING_SE2_XY 0 2 0.785398 100"; echo "EDGE_BEARING_SE2_XY 1 2 1.570796 100"; } > bearing.g2o
+  [ "$(sg-isam2 --min-obs 2 -f variables --no-header bearing.g2o | tr '\n' ' ')" = "1 3 " ]
+  sg-isam2 --min-obs 2 -o end.g2o bearing.g2o > /dev/null
+  awk '$1 == "VERTEX_XY" { exit !($3 > 0.99 && $3 < 1.01 && $4 > 0.99 && $4 < 1.01) }' end.g2o
+}
+
+@test "usage errors" {
+  run sg-isam2 -m nonsense "$TESTDATA/walk.g2o"
+  [ "$status" -eq 2 ]
+  run sg-isam2 --every 0 "$TESTDATA/walk.g2o"
+  [ "$status" -eq 2 ]
+  run sg-isam2 --init elsewhere "$TESTDATA/walk.g2o"
+  [ "$status" -eq 2 ]
+}
+
+@test "intel: within 1 % of the optimum" {
+  need_data
+  chi2=$(sg-isam2 -f chi2 --no-header --every 10000 "$SGTOOLS_DATA/intel.g2o" | tail -n 1)
+  awk -v chi2="$chi2" 'BEGIN { exit !(chi2 < 45.004696 * 1.01 && chi2 >= 45.0046) }'
+}
