@@ -70,9 +70,10 @@ paper: build ## reproduce every figure and table of the paper, into out/paper
 	$(call need,$(PLOT_PACKAGES))
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/paper OUT=$(CURDIR)/out/paper
 
-orderings: build ## every ordering on every graph, into out/orderings
+orderings: build ## every ordering on every graph, into out/orderings (GRAPHS="..." adds yours)
 	$(call need,$(PLOT_PACKAGES))
-	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/orderings OUT=$(CURDIR)/out/orderings
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/orderings OUT=$(CURDIR)/out/orderings \
+	  GRAPHS="$(abspath $(GRAPHS))"
 
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
