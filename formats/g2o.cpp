@@ -73,6 +73,7 @@ Error too_large(const Graph& graph) {
 void check_numbers(std::string_view line, std::int64_t needed, std::string_view tag) {
   std::int64_t count = 0;
   while (true) {
+    while (take_plain_number(line)) ++count;
     const auto word = next_word(line);
     if (word.empty()) break;
     if (!parse<double>(word)) throw BadLine{quoted(word) + " is not a number"};

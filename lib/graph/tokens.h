@@ -9,7 +9,7 @@
 namespace sg {
 
 constexpr bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
 }
 
 // Takes the next word off the front of `line`; empty at its end.
@@ -32,6 +32,46 @@ std::optional<T> parse(std::string_view word) {
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
   if (error != std::errc{}) return std::nullopt;
   return value;
+}
+
+constexpr bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// The quick ways for the words that nearly all are. Both take the next word off the front of `line`
+// if it is of that kind, and leave `line` as it is otherwise: then next_word and parse decide.
+
+// Digits that fit an id: at most 18.
+inline std::optional<std::int64_t> take_plain_id(std::string_view& line) {
+  const char* p = line.data();
+  const char* const end = p + line.size();
+  while (p != end && is_blank(*p)) ++p;
+  const char* const begin = p;
+  std::int64_t value = 0;
+  while (p != end && is_digit(*p) && p - begin < 18) value = 10 * value + (*p++ - '0');
+  if (p == begin || (p != end && !is_blank(*p))) return std::nullopt;
+  line = {p, static_cast<std::size_t>(end - p)};
+  return value;
+}
+
+// A decimal number without exponent, short enough to be finite whatever it says. It is not
+// converted.
+inline bool take_plain_number(std::string_view& line) {
+  const char* p = line.data();
+  const char* const end = p + line.size();
+  while (p != end && is_blank(*p)) ++p;
+  if (p != end && *p == '-') ++p;
+  const char* const begin = p;
+  while (p != end && is_digit(*p)) ++p;
+  std::ptrdiff_t digits = p - begin;
+  if (p != end && *p == '.') {
+    const char* const fraction = ++p;
+    while (p != end && is_digit(*p)) ++p;
+    digits += p - fraction;
+  }
+  if (digits == 0 || digits > 300 || (p != end && !is_blank(*p))) return false;
+  line = {p, static_cast<std::size_t>(end - p)};
+  return true;
 }
 
 }  // namespace sg
