@@ -14,8 +14,12 @@
 namespace sg {
 
 // For every position k: d_f(k) + d_s(k), the scalar dimension of the variable and its separator
-// together.
-std::vector<std::int64_t> column_counts(const OrderedPattern& pattern,
+// together. dim and parent by position.
+std::vector<std::int64_t> column_counts(const Links& links, const std::vector<int>& dim,
                                         const std::vector<Index>& parent);
+inline std::vector<std::int64_t> column_counts(const OrderedPattern& pattern,
+                                               const std::vector<Index>& parent) {
+  return column_counts(links(pattern), pattern.dim, parent);
+}
 
 }  // namespace sg

@@ -55,30 +55,59 @@ OrderedPattern ordered(const Pattern& pattern, const Order& order) {
   return result;
 }
 
-std::vector<Index> elimination_tree(const OrderedPattern& pattern) {
-  // A row is a clique. Its variables lie on one path of the tree, so linking each to the next one
-  // is enough; and a row counts from its first variable on, in which order the rows stand.
-  // Processing columns ascending, as Liu does, wants for every column the links that end in it:
-  // (lower, column) pairs, bucketed by column.
-  const Index n = pattern.variables();
-  std::vector<Index> begin(n + 1, 0);
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    for (Index k : pattern.row(r).subspan(1)) ++begin[k + 1];
+namespace {
+
+struct Link {
+  Index lower;
+  Index upper;
+};
+
+// The edges of one row.
+void add_links(std::span<const Index> row, const auto& position, std::vector<Link>& list) {
+  if (row.size() < 2) return;
+  Index first = position(row[0]);
+  for (const Index j : row.subspan(1)) first = std::min(first, position(j));
+  for (const Index j : row) {
+    if (position(j) != first) list.push_back({first, position(j)});
   }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Index> lower(begin.back());
-  {
-    std::vector<Index> at(begin.begin(), begin.end() - 1);
-    for (Index r = 0; r < pattern.rows(); ++r) {
-      const auto row = pattern.row(r);
-      for (std::size_t i = 1; i < row.size(); ++i) lower[at[row[i]]++] = row[i - 1];
-    }
-  }
-  std::vector<Index> parent(n, -1);
-  std::vector<Index> ancestor(n, -1);
-  for (Index k = 0; k < n; ++k) {
-    for (Index p = begin[k]; p < begin[k + 1]; ++p) {
-      for (Index i = lower[p]; i != -1 && i < k;) {
+}
+
+// Counting sort by upper end.
+Links sorted(const std::vector<Link>& list, Index n) {
+  Links links;
+  links.begin.assign(n + 1, 0);
+  for (const Link& link : list) ++links.begin[link.upper + 1];
+  std::partial_sum(links.begin.begin(), links.begin.end(), links.begin.begin());
+  links.lower.resize(list.size());
+  std::vector<Index> at(links.begin.begin(), links.begin.end() - 1);
+  for (const Link& link : list) links.lower[at[link.upper]++] = link.lower;
+  return links;
+}
+
+Links links_of(const auto& pattern, const auto& position) {
+  std::vector<Link> list;
+  list.reserve(pattern.rows());
+  for (Index r = 0; r < pattern.rows(); ++r) add_links(pattern.row(r), position, list);
+  return sorted(list, pattern.variables());
+}
+
+}  // namespace
+
+Links links(const Pattern& pattern, const Order& order) {
+  const std::vector<Index> position = positions(order, pattern.variables());
+  return links_of(pattern, [&](Index j) { return position[j]; });
+}
+
+Links links(const OrderedPattern& pattern) {
+  return links_of(pattern, [](Index k) { return k; });
+}
+
+std::vector<Index> elimination_tree(const Links& links) {
+  std::vector<Index> parent(links.size(), -1);
+  std::vector<Index> ancestor(links.size(), -1);
+  for (Index k = 0; k < links.size(); ++k) {
+    for (Index i : links[k]) {
+      while (i != -1 && i < k) {
         const Index next = ancestor[i];
         ancestor[i] = k;  // path compression
         if (next == -1) parent[i] = k;
@@ -89,32 +118,32 @@ std::vector<Index> elimination_tree(const OrderedPattern& pattern) {
   return parent;
 }
 
+std::vector<Index> subtree_sizes(const std::vector<Index>& parent) {
+  std::vector<Index> size(parent.size(), 1);
+  for (std::size_t k = 0; k < parent.size(); ++k) {
+    if (parent[k] >= 0) size[parent[k]] += size[k];
+  }
+  return size;
+}
+
+std::vector<Index> postorder_ranks(const std::vector<Index>& parent,
+                                   const std::vector<Index>& size) {
+  // From the last root down, every vertex takes the last free place of its parent's subtree.
+  std::vector<Index> rank(parent.size());
+  std::vector<Index> free_end(parent.size());  // of every vertex's subtree
+  auto forest_end = static_cast<Index>(parent.size());
+  for (auto k = static_cast<Index>(parent.size()) - 1; k >= 0; --k) {
+    Index& end = parent[k] >= 0 ? free_end[parent[k]] : forest_end;
+    rank[k] = free_end[k] = end - 1;
+    end -= size[k];
+  }
+  return rank;
+}
+
 std::vector<Index> postorder(const std::vector<Index>& parent) {
-  const auto n = static_cast<Index>(parent.size());
-  std::vector<Index> head(n, -1);
-  std::vector<Index> next(n, -1);
-  for (Index k = n - 1; k >= 0; --k) {
-    if (parent[k] < 0) continue;
-    next[k] = head[parent[k]];
-    head[parent[k]] = k;
-  }
-  std::vector<Index> post;
-  post.reserve(n);
-  std::vector<Index> stack;
-  for (Index root = 0; root < n; ++root) {
-    if (parent[root] >= 0) continue;
-    stack.push_back(root);
-    while (!stack.empty()) {
-      const Index k = stack.back();
-      if (head[k] >= 0) {
-        stack.push_back(head[k]);
-        head[k] = next[head[k]];
-      } else {
-        post.push_back(k);
-        stack.pop_back();
-      }
-    }
-  }
+  const std::vector<Index> rank = postorder_ranks(parent, subtree_sizes(parent));
+  std::vector<Index> post(parent.size());
+  for (std::size_t k = 0; k < parent.size(); ++k) post[rank[k]] = static_cast<Index>(k);
   return post;
 }
 

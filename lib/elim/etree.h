@@ -32,11 +32,35 @@ struct OrderedPattern {
 // Throws std::invalid_argument if `order` is not a permutation of the pattern's variables.
 OrderedPattern ordered(const Pattern& pattern, const Order& order);
 
-// parent[k] of every position, -1 at a root.
-std::vector<Index> elimination_tree(const OrderedPattern& pattern);
+// What tree and counts need of the rows: for every row of A, an edge from its first position to
+// each of its others. Eliminating the first joins the others anyhow, so that this graph, which is
+// no larger than A, has the tree and the fill of A^T A.
+struct Links {
+  std::vector<Index> begin;  // n + 1
+  std::vector<Index> lower;  // the lower ends of the edges whose upper end is k, by k
+  Index size() const { return static_cast<Index>(begin.size()) - 1; }
+  std::span<const Index> operator[](Index k) const {
+    return {lower.data() + begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k])};
+  }
+};
+// Throws as ordered() does, which is the slower way to the same.
+Links links(const Pattern& pattern, const Order& order);
+Links links(const OrderedPattern& pattern);
 
-// A postorder of the forest: children before parents, subtrees contiguous, siblings ascending.
+// parent[k] of every position, -1 at a root.
+std::vector<Index> elimination_tree(const Links& links);
+inline std::vector<Index> elimination_tree(const OrderedPattern& pattern) {
+  return elimination_tree(links(pattern));
+}
+
+// A postorder of the forest: children before parents, subtrees contiguous, siblings ascending, and
+// so roots. parent[k] > k is required.
 std::vector<Index> postorder(const std::vector<Index>& parent);
+// Its inverse, the place of every position, from subtree_sizes.
+std::vector<Index> postorder_ranks(const std::vector<Index>& parent,
+                                   const std::vector<Index>& size);
+// Vertices in the subtree of every position, itself included.
+std::vector<Index> subtree_sizes(const std::vector<Index>& parent);
 
 // Depth of the deepest vertex, counted in vertices; 0 for the empty tree. parent[k] > k is
 // required.

@@ -22,10 +22,12 @@ double to_double(Wide value) {
 }
 
 Symbolic symbolic(const Pattern& pattern, const Order& order) {
-  OrderedPattern by_position = ordered(pattern, order);
+  const Links by_position = links(pattern, order);
+  std::vector<int> dim(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) dim[k] = pattern.dim[order[k]];
   std::vector<Index> parent = elimination_tree(by_position);
-  std::vector<std::int64_t> count = column_counts(by_position, parent);
-  return {std::move(by_position.dim), std::move(parent), std::move(count)};
+  std::vector<std::int64_t> count = column_counts(by_position, dim, parent);
+  return {std::move(dim), std::move(parent), std::move(count)};
 }
 
 Wide elimination_complexity(const Symbolic& symbolic) {
