@@ -1,52 +1,62 @@
 #include "lib/elim/counts.h"
 
 #include <numeric>
-#include <span>
 
 namespace sg {
 namespace {
 
 // All that the counting looks at, in postorder: neighbours in the tree are then neighbours in
-// memory. Places count from 1; place 0 is the parent of roots, and what comes of its being treated
-// like any other, which spares the branches, nobody reads.
+// memory. Places count from 1. The parent of roots is place n + 1, and place 0 stands for "none":
+// treating both like any other spares branches, and what gathers there nobody reads.
 struct Postordered {
   std::vector<Index> place;   // of every position
-  std::vector<Index> parent;  // n + 1, as all below
+  std::vector<Index> parent;  // n + 2, as the next two
   std::vector<Index> first;   // first descendant
   std::vector<int> dim;
-  std::vector<Index> begin;  // n + 2
-  std::vector<Index> upper;  // the upper ends of the links whose lower end is j, by j
+  std::vector<Link> links;  // by ascending lower end
 };
+
+std::vector<Link> sorted_by_lower(const Links& links, const std::vector<Index>& place) {
+  std::vector<Index> at(links.size + 2, 0);  // counting sort
+  for (const Link& link : links.list) ++at[place[link.lower] + 1];
+  std::partial_sum(at.begin(), at.end(), at.begin());
+  std::vector<Link> result(links.list.size());
+  for (const Link& link : links.list) {
+    const Index j = place[link.lower];
+    result[at[j]++] = {j, place[link.upper]};
+  }
+  return result;
+}
 
 Postordered postordered(const Links& links, const std::vector<int>& dim,
                         const std::vector<Index>& parent) {
-  const Index n = links.size();
+  const Index n = links.size;
   const std::vector<Index> size = subtree_sizes(parent);
-  Postordered post{postorder_ranks(parent, size), std::vector<Index>(n + 1, 0),
-                   std::vector<Index>(n + 1, 0),  std::vector<int>(n + 1, 0),
-                   std::vector<Index>(n + 2, 0),  std::vector<Index>(links.lower.size())};
+  Postordered post{postorder_ranks(parent, size),
+                   std::vector<Index>(n + 2, n + 1),
+                   std::vector<Index>(n + 2, 0),
+                   std::vector<int>(n + 2, 0),
+                   {}};
   std::vector<Index>& place = post.place;
   for (Index& k : place) ++k;
   for (Index k = 0; k < n; ++k) {
     const Index j = place[k];
-    post.parent[j] = parent[k] < 0 ? 0 : place[parent[k]];
+    if (parent[k] >= 0) post.parent[j] = place[parent[k]];
     post.first[j] = j - size[k] + 1;
     post.dim[j] = dim[k];
   }
-  for (const Index i : links.lower) ++post.begin[place[i] + 1];
-  std::partial_sum(post.begin.begin(), post.begin.end(), post.begin.begin());
-  std::vector<Index> at(post.begin.begin(), post.begin.end() - 1);
-  for (Index k = 0; k < n; ++k) {
-    for (const Index i : links[k]) post.upper[at[place[i]]++] = place[k];
-  }
+  post.links = sorted_by_lower(links, place);
   return post;
 }
 
-// The root of i's set; disjoint sets, paths halved on the way.
-Index find(std::vector<Index>& ancestor, Index i) {
-  while (ancestor[i] != i) {
-    ancestor[i] = ancestor[ancestor[i]];
-    i = ancestor[i];
+// The first ancestor of i, or i itself, that is not before j: where i < j lie in one tree, their
+// least common ancestor. Jumps only skip what lies before j, and later j are larger, so that paths
+// may be halved on the way.
+Index ancestor_from(std::vector<Index>& jump, Index i, Index j) {
+  while (i < j) {
+    const Index up = jump[i];
+    if (up >= j) return up;
+    i = jump[i] = jump[up];
   }
   return i;
 }
@@ -55,23 +65,20 @@ Index find(std::vector<Index>& ancestor, Index i) {
 // dimension: it begins at each of its leaves, two of its branches become one where they meet, and
 // it ends above its root.
 std::vector<std::int64_t> count_differences(const Postordered& post) {
-  const auto places = static_cast<Index>(post.parent.size());
-  std::vector<std::int64_t> delta(places, 0);
-  std::vector<Index> ancestor(places);
-  std::iota(ancestor.begin(), ancestor.end(), 0);
-  std::vector<Index> previous_leaf(places, 0);  // of the row subtree whose root it is
-  for (Index j = 1; j < places; ++j) {
+  const auto n = static_cast<Index>(post.place.size());
+  std::vector<std::int64_t> delta(n + 2, 0);
+  for (Index j = 1; j <= n; ++j) {
     if (post.first[j] == j) delta[j] += post.dim[j];  // a leaf of the tree is all of its subtree
-    for (Index p = post.begin[j]; p < post.begin[j + 1]; ++p) {
-      const Index i = post.upper[p];
-      const Index previous = previous_leaf[i];
-      if (post.first[j] <= previous) continue;  // i's subtree has a leaf below j
-      previous_leaf[i] = j;
-      delta[j] += post.dim[i];
-      delta[find(ancestor, previous)] -= post.dim[i];
-    }
     delta[post.parent[j]] -= post.dim[j];
-    ancestor[j] = post.parent[j];
+  }
+  std::vector<Index> jump = post.parent;
+  std::vector<Index> previous_leaf(n + 2, 0);  // of the row subtree whose root it is
+  for (const auto& [j, i] : post.links) {
+    const Index previous = previous_leaf[i];
+    if (post.first[j] <= previous) continue;  // i's subtree has a leaf below j
+    previous_leaf[i] = j;
+    delta[j] += post.dim[i];
+    delta[ancestor_from(jump, previous, j)] -= post.dim[i];
   }
   return delta;
 }
@@ -82,7 +89,7 @@ std::vector<std::int64_t> column_counts(const Links& links, const std::vector<in
                                         const std::vector<Index>& parent) {
   const Postordered post = postordered(links, dim, parent);
   std::vector<std::int64_t> sum = count_differences(post);
-  for (std::size_t j = 1; j < sum.size(); ++j) sum[post.parent[j]] += sum[j];
+  for (std::size_t j = 1; j <= post.place.size(); ++j) sum[post.parent[j]] += sum[j];
   std::vector<std::int64_t> count(dim.size());
   for (std::size_t k = 0; k < count.size(); ++k) count[k] = sum[post.place[k]];
   return count;

@@ -57,11 +57,6 @@ OrderedPattern ordered(const Pattern& pattern, const Order& order) {
 
 namespace {
 
-struct Link {
-  Index lower;
-  Index upper;
-};
-
 // The edges of one row.
 void add_links(std::span<const Index> row, const auto& position, std::vector<Link>& list) {
   if (row.size() < 2) return;
@@ -78,23 +73,20 @@ void add_links(std::span<const Index> row, const auto& position, std::vector<Lin
   }
 }
 
-// Counting sort by upper end.
-Links sorted(const std::vector<Link>& list, Index n) {
-  Links links;
-  links.begin.assign(n + 1, 0);
-  for (const Link& link : list) ++links.begin[link.upper + 1];
-  std::partial_sum(links.begin.begin(), links.begin.end(), links.begin.begin());
-  links.lower.resize(list.size());
-  std::vector<Index> at(links.begin.begin(), links.begin.end() - 1);
-  for (const Link& link : list) links.lower[at[link.upper]++] = link.lower;
-  return links;
+std::vector<Link> sorted(const std::vector<Link>& list, Index n) {
+  std::vector<Index> at(n + 1, 0);  // counting sort
+  for (const Link& link : list) ++at[link.upper + 1];
+  std::partial_sum(at.begin(), at.end(), at.begin());
+  std::vector<Link> result(list.size());
+  for (const Link& link : list) result[at[link.upper]++] = link;
+  return result;
 }
 
 Links links_of(const auto& pattern, const auto& position) {
   std::vector<Link> list;
   list.reserve(pattern.rows());
   for (Index r = 0; r < pattern.rows(); ++r) add_links(pattern.row(r), position, list);
-  return sorted(list, pattern.variables());
+  return {pattern.variables(), sorted(list, pattern.variables())};
 }
 
 }  // namespace
@@ -109,19 +101,19 @@ Links links(const OrderedPattern& pattern) {
 }
 
 std::vector<Index> elimination_tree(const Links& links) {
-  std::vector<Index> parent(links.size(), -1);
-  std::vector<Index> ancestor(links.size(), -1);
-  for (Index k = 0; k < links.size(); ++k) {
-    for (Index i : links[k]) {
-      while (ancestor[i] != k) {  // up to the root of i's tree, which becomes a child of k
-        const Index next = ancestor[i];
-        ancestor[i] = k;  // path compression
-        if (next == -1) {
-          parent[i] = k;
-          break;
-        }
-        i = next;
+  std::vector<Index> parent(links.size, -1);
+  std::vector<Index> ancestor(links.size, -1);
+  for (const Link& link : links.list) {
+    // Up to the root of the lower end's tree, which becomes a child of the upper end.
+    const Index k = link.upper;
+    for (Index i = link.lower; ancestor[i] != k;) {
+      const Index next = ancestor[i];
+      ancestor[i] = k;  // path compression
+      if (next == -1) {
+        parent[i] = k;
+        break;
       }
+      i = next;
     }
   }
   return parent;

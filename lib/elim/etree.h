@@ -35,13 +35,13 @@ OrderedPattern ordered(const Pattern& pattern, const Order& order);
 // What tree and counts need of the rows: for every row of A, an edge from its first position to
 // each of its others. Eliminating the first joins the others anyhow, so that this graph, which is
 // no larger than A, has the tree and the fill of A^T A.
+struct Link {
+  Index lower;
+  Index upper;  // > lower
+};
 struct Links {
-  std::vector<Index> begin;  // n + 1
-  std::vector<Index> lower;  // the lower ends of the edges whose upper end is k, by k
-  Index size() const { return static_cast<Index>(begin.size()) - 1; }
-  std::span<const Index> operator[](Index k) const {
-    return {lower.data() + begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k])};
-  }
+  Index size;              // n
+  std::vector<Link> list;  // by ascending upper end
 };
 // Throws as ordered() does, which is the slower way to the same.
 Links links(const Pattern& pattern, const Order& order);
