@@ -29,7 +29,7 @@ check_tree() {
   for graph in $graphs; do
     for m in colamd random; do
       check_tree $graph $m
-      [ "$(sg-bayes -m $m --no-header -f cost $graph | awk "{s += \$1} END {printf \"%d\", s}")" = "$(sg-ec -m $m --no-header -f ec_bt $graph)" ]
+      [ "$(sg-bayes -m $m --no-header -f cost $graph | awk "{s += \$1} END {printf \"%.0f\", s}")" = "$(sg-ec -m $m --no-header -f ec_bt $graph)" ]
       [ "$(sg-bayes -m $m --no-header $graph | wc -l)" = "$(sg-ec -m $m --no-header -f cliques $graph)" ]
     done
   done

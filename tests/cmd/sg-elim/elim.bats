@@ -11,7 +11,7 @@ setup() { cd "$TESTDATA"; }
 @test "costs sum to the EC of sg-ec, under every ordering" {
   for graph in figure1.g2o walk.g2o; do
     for m in file colamd random landmarks-first; do
-      [ "$(sg-elim -m $m --no-header -f cost $graph | awk "{s += \$1} END {printf \"%d\", s}")" = "$(sg-ec -m $m --no-header -f ec $graph)" ]
+      [ "$(sg-elim -m $m --no-header -f cost $graph | awk "{s += \$1} END {printf \"%.0f\", s}")" = "$(sg-ec -m $m --no-header -f ec $graph)" ]
     done
   done
 }
