@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
-#include <new>
 #include <vector>
 
 namespace sg {
@@ -12,20 +12,15 @@ namespace sg {
 class Arena {
  public:
   Arena() = default;
-  explicit Arena(std::size_t size)
-      : numbers_(static_cast<double*>(::operator new(size * sizeof(double), alignment))),
-        size_(size) {
-    for (std::size_t i = 0; i < size; ++i) numbers_[i] = 0;
-  }
+  explicit Arena(std::size_t size);  // all zero; throws std::bad_alloc
 
   double* data() { return numbers_.get(); }
   const double* data() const { return numbers_.get(); }
   std::size_t size() const { return size_; }
 
  private:
-  static constexpr std::align_val_t alignment{64};
   struct Release {
-    void operator()(double* p) const { ::operator delete(p, alignment); }
+    void operator()(double* p) const { std::free(p); }
   };
   std::unique_ptr<double[], Release> numbers_;
   std::size_t size_ = 0;
