@@ -37,8 +37,7 @@ std::vector<sg::IdList> ids(const std::vector<std::vector<sg::Index>>& positions
 
 NamedTree named_tree(const Options& options, const sg::Graph& graph) {
   const sg::GraphPattern variables = sg::graph_pattern(graph);
-  const sg::Method method = sg::methods(options.method, graph).front();
-  const sg::Order order = sg::order_by(method, options.method, graph, variables);
+  const auto [label, order] = sg::named_order(options.method, graph, variables);
   NamedTree named{sg::bayes_tree(sg::symbolic(variables.pattern, order)), {}, {}};
   named.frontal = ids(sg::clique_frontals(named.tree), graph, variables, order);
   named.separator = ids(sg::clique_separators(sg::ordered(variables.pattern, order), named.tree),

@@ -123,8 +123,7 @@ void simulate(const Options& options) {
                               " variables are too many to simulate one by one (at most " +
                               std::to_string(most_variables) + "); sg-ec scores any graph");
   }
-  const sg::Method method = sg::methods(options.method, graph).front();
-  const sg::Order order = sg::order_by(method, options.method, graph, variables);
+  const auto [label, order] = sg::named_order(options.method, graph, variables);
   const auto steps = sg::node_elimination(pattern, order);
   const Names id_of{graph, variables};
   sg::Output output(options.output.path);

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "cmd/common/command.h"
+#include "cmd/common/method.h"
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
@@ -14,7 +15,7 @@ struct Options {
   std::string what;
   sg::Input input;
   sg::OutputOptions output;
-  std::string method;
+  sg::MethodOptions method;
   std::string plane = "xy";
   bool cost = false;
   sg::PageSize size{600, 600};
@@ -28,10 +29,7 @@ void add_options(sg::Command& command, Options& options) {
       ->check(CLI::IsMember({"map", "pattern", "tree"}).description(""))
       ->option_text(" ");
   sg::add_input(command, options.input);
-  app.add_option("-m,--method", options.method,
-                 "Ordering, as sg-order has them. Default: the\n"
-                 "file's if sg-order left it there, else colamd")
-      ->option_text("METHOD");
+  sg::add_method(command, options.method);
   app.add_flag("--cost", options.cost, "Of a map: colour what costs by its share of EC")
       ->option_text(" ");
   app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
@@ -46,25 +44,12 @@ void add_options(sg::Command& command, Options& options) {
   sg::add_output(command, options.output);
 }
 
-struct NamedOrder {
-  sg::Order order;
-  std::string name;
-};
-
-NamedOrder order_of(const Options& options, const sg::Graph& graph,
-                    const sg::GraphPattern& variables) {
-  std::string method = options.method;
-  if (method.empty()) method = graph.order_method.empty() ? "colamd" : "file";
-  return {sg::elimination_order(method, variables.pattern, sg::order_options(graph, variables)),
-          options.method.empty() && method == "file" ? "file:" + graph.order_method : method};
-}
-
 void draw(cairo_t* page, const Options& options, const sg::Graph& graph) {
   const bool map = options.what == "map";
   const std::array axes{options.plane[0] - 'x', options.plane[1] - 'x'};
   if (map && !options.cost) return sg::draw_map(page, options.size, graph, axes);
   const sg::GraphPattern variables = sg::graph_pattern(graph);
-  const auto [order, name] = order_of(options, graph, variables);
+  const auto [name, order] = sg::named_order(options.method, graph, variables);
   if (map) {
     return sg::draw_cost_map(page, options.size, graph, axes, sg::costs(variables, order, name));
   }
@@ -83,7 +68,7 @@ int main(int argc, char** argv) {
   return sg::run(command, argc, argv, [&] {
     const sg::PictureFormat format = sg::picture_format(options.output.path);
     if (options.cost && options.what != "map") throw sg::usage_error("--cost belongs to map");
-    if (!options.method.empty()) sg::find_ordering(options.method);  // before a long read
+    sg::check(options.method);
     const sg::Graph graph = sg::read(options.input);
     const std::string bytes = sg::picture(format, options.size.width, options.size.height,
                                           [&](cairo_t* page) { draw(page, options, graph); });

@@ -8,12 +8,12 @@
 
 #include "cmd/common/command.h"
 #include "cmd/common/estimates.h"
+#include "cmd/common/method.h"
 #include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/graph/tokens.h"
-#include "lib/order/order.h"
 #include "lib/solve/batch.h"
 
 namespace {
@@ -30,7 +30,7 @@ struct Options {
   int iterations = 100;
   double tolerance = 1e-9;
   std::string kernel;
-  std::string order;
+  sg::MethodOptions method;
   std::string backend{sg::backends().front().name};
   int threads = 0;
   int runs = 0;
@@ -51,10 +51,7 @@ void add_options(sg::Command& command, Options& options) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--kernel", options.kernel, "Robust kernel huber or cauchy, of width W")
       ->option_text("NAME:W");
-  app.add_option("-m,--method", options.order,
-                 "Elimination ordering, as in sg-order (default: the\n"
-                 "one that sg-order left in the file, else colamd)")
-      ->option_text("METHOD");
+  sg::add_method(command, options.method);
   app.add_option("--backend", options.backend, "Eliminate by " + sg::backend_names())
       ->option_text("NAME");
   app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
@@ -92,18 +89,9 @@ sg::BatchOptions batch_options(const Options& options) {
   return batch;
 }
 
-// The order that -m asks for, or that sg-order left in the file; and how the table calls it.
-struct NamedOrder {
-  std::string label;
-  sg::Order order;
-};
-NamedOrder elimination_order(const Options& options, const sg::Graph& graph) {
-  const sg::GraphPattern variables = sg::graph_pattern(graph);  // without the gauge's row
-  const bool ordered = options.order.empty() && !graph.order_method.empty();
-  const std::string fallback = ordered ? "file" : "colamd";
-  const std::string& name = options.order.empty() ? fallback : options.order;
-  return {ordered ? "file:" + graph.order_method : name,
-          sg::elimination_order(name, variables.pattern, sg::order_options(graph, variables))};
+sg::NamedOrder named_order(const Options& options, const sg::Graph& graph) {
+  return sg::named_order(options.method, graph,
+                         sg::graph_pattern(graph));  // without the gauge's row
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -117,7 +105,7 @@ double median(std::vector<double> times) {
 }
 
 void print_times(const Options& options, const sg::Problem& problem, const sg::Values& values) {
-  const auto [label, order] = elimination_order(options, *problem.graph);
+  const auto [label, order] = named_order(options, *problem.graph);
   const sg::Pattern& pattern = problem.variables.pattern;
   sg::LinearSystem system = sg::make_linear_system(problem);
   sg::linearize(problem, values, parse_kernel(options.kernel), system);
@@ -158,7 +146,7 @@ std::vector<bool> moved(const sg::Problem& problem) {
 
 void solve(const sg::Command& command, const Options& options, const sg::Problem& problem,
            sg::Values values) {
-  const sg::Order order = elimination_order(options, *problem.graph).order;
+  const sg::Order order = named_order(options, *problem.graph).order;
   sg::LinearSystem system = sg::make_linear_system(problem);
   const auto solver = sg::find_backend(options.backend).make(system, order, options.threads);
   sg::Progress progress(command.name, "iteration", options.iterations);
@@ -185,7 +173,7 @@ void run(const sg::Command& command, Options options) {
   parse_kernel(options.kernel);  // a wrong call is told before a long read
   if (options.chi2 && options.runs > 0) throw sg::usage_error("--chi2 or --time, not both");
   sg::find_backend(options.backend);
-  if (!options.order.empty()) sg::find_ordering(options.order);
+  sg::check(options.method);
   if (options.threads == 0) options.threads = tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 

@@ -47,4 +47,10 @@ Order order_by(const Method& method, const MethodOptions& options, const Graph& 
   return elimination_order(*method.ordering, variables.pattern, order_options);
 }
 
+NamedOrder named_order(const MethodOptions& options, const Graph& graph,
+                       const GraphPattern& variables) {
+  const Method method = methods(options, graph).front();
+  return {method.label, order_by(method, options, graph, variables)};
+}
+
 }  // namespace sg

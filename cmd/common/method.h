@@ -29,4 +29,12 @@ std::vector<Method> methods(const MethodOptions& options, const Graph& graph);
 Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
                const GraphPattern& variables);
 
+// The same for a command that looks at one order.
+struct NamedOrder {
+  std::string label;
+  Order order;
+};
+NamedOrder named_order(const MethodOptions& options, const Graph& graph,
+                       const GraphPattern& variables);
+
 }  // namespace sg

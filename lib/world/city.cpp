@@ -75,13 +75,7 @@ void look(const City& world, double side, Random& random, LandmarkGraph& graph) 
 LandmarkGraph city(const City& world) {
   Random random = random_stream(world.seed, Stream::structure);
   const Index side = side_of(world.streets, world.poses);
-  LandmarkGraph graph;
-  graph.sensor = world.sensor;
-  graph.optics = world.optics;
-  graph.odometry_noise = world.odometry_noise;
-  graph.guess_noise = world.guess_noise;
-  graph.guess = world.guess;
-  graph.seed = world.seed;
+  LandmarkGraph graph = begin_landmark_graph(world);
   graph.poses.reserve(world.poses);
   for (const StreetPose& at : street_walk(world.streets, world.poses, random)) {
     graph.poses.push_back(pose(at));

@@ -65,6 +65,20 @@ struct LandmarkGraph {
   std::uint64_t seed = 0;
 };
 
+// The graph of a world before anything is in it: the sensor, its noise and the seed, which every world
+// of landmarks has under these names.
+template <class World>
+LandmarkGraph begin_landmark_graph(const World& world) {
+  LandmarkGraph graph;
+  graph.sensor = world.sensor;
+  graph.optics = world.optics;
+  graph.odometry_noise = world.odometry_noise;
+  graph.guess_noise = world.guess_noise;
+  graph.guess = world.guess;
+  graph.seed = world.seed;
+  return graph;
+}
+
 // Closes the observations of one more pose. Throws a computation Error when they are too many for an
 // Index.
 void end_observations(LandmarkGraph& graph);

@@ -82,13 +82,7 @@ void look(const Sine& world, LandmarkGraph& graph) {
 }  // namespace
 
 LandmarkGraph sine(const Sine& world) {
-  LandmarkGraph graph;
-  graph.sensor = world.sensor;
-  graph.optics = world.optics;
-  graph.odometry_noise = world.odometry_noise;
-  graph.guess_noise = world.guess_noise;
-  graph.guess = world.guess;
-  graph.seed = world.seed;
+  LandmarkGraph graph = begin_landmark_graph(world);
   graph.poses = path_poses(world);
   graph.landmarks = scattered_landmarks(world, graph.poses.back().x);
   look(world, graph);

@@ -19,13 +19,7 @@ std::vector<Eigen::Vector3d> landmarks_before(double length, const Worst& world)
 }  // namespace
 
 LandmarkGraph worst(const Worst& world) {
-  LandmarkGraph graph;
-  graph.sensor = world.sensor;
-  graph.optics = world.optics;
-  graph.odometry_noise = world.odometry_noise;
-  graph.guess_noise = world.guess_noise;
-  graph.guess = world.guess;
-  graph.seed = world.seed;
+  LandmarkGraph graph = begin_landmark_graph(world);
   const double line = world.step * (world.poses - 1);
   graph.landmarks = landmarks_before(std::max(10.0, line), world);
   for (Index k = 0; k < world.poses; ++k) {
