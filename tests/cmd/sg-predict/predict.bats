@@ -28,13 +28,9 @@ setup() { cd "$TESTDATA"; }
 @test "the closed form bounds the worst case" {
   for size in "5 5" "10 20" "20 40" "50 60" "60 300"; do
     set -- $size
-    awk -v n=$1 -v l=$2 'BEGIN {
-      for (i = 0; i < n; i++) print "VERTEX_SE3:QUAT", i, 0, 0, 0, 0, 0, 0, 1
-      for (j = 0; j < l; j++) print "VERTEX_TRACKXYZ", n + j, 0, 0, 0
-      for (i = 1; i < n; i++) print "ODO", i - 1, i
-      for (i = 0; i < n; i++) for (j = 0; j < l; j++) print "SEEN", i, n + j}' >"$BATS_TEST_TMPDIR/worst.g2o"
+    sg-gen worst -n $1 -l $2 -o "$BATS_TEST_TMPDIR/worst.g2o"
     for m in landmarks-first colamd; do
-      ec=$(sg-ec --edge ODO:2 --edge SEEN:2 -m $m --no-header -f ec "$BATS_TEST_TMPDIR/worst.g2o")
+      ec=$(sg-ec -m $m --no-header -f ec "$BATS_TEST_TMPDIR/worst.g2o")
       bound=$(sg-predict --poses $1 --landmarks $2 -f full --no-header)
       awk -v ec="$ec" -v bound="$bound" 'BEGIN {exit !(ec + 0 <= bound + 0)}'
     done
