@@ -248,6 +248,13 @@ void eliminate(FillGraph& g, Index v) {
   merge_indistinguishable(g, clique);
 }
 
+double least_work(const FillGraph& g, Index v) {
+  if (g.fill[v].fill == 0 || !g.variables.alive[v]) return 0;
+  const auto neighbours = static_cast<double>(g.list[v].live);
+  const double mean_weight = static_cast<double>(g.degree[v]) / neighbours;
+  return static_cast<double>(g.fill[v].fill) / (mean_weight * mean_weight) * neighbours;
+}
+
 Index better_first(FillGraph& g, Index v) {
   mark_closed_neighbourhood(g, v);
   const std::int64_t front_v = g.fill[v].weight + g.degree[v];

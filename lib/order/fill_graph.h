@@ -78,6 +78,10 @@ FillGraph fill_graph(const Adjacency& graph, const std::vector<int>& dim, std::v
 // Takes v, which must be alive, and all that merged into it. Needs an exact graph.
 void eliminate(FillGraph& graph, Index v);
 
+// About the least work that eliminating v takes: as many joins as pairs are missing, each over a list
+// of as many as v's neighbours.
+double least_work(const FillGraph& graph, Index v);
+
 // A neighbour i of v, in v's stage, that had better go right before v: its neighbours are v and
 // neighbours of v, so that both orders leave the same graph behind, and i, then v costs less than v,
 // then i. v itself where there is none.

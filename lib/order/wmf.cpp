@@ -72,7 +72,8 @@ std::vector<Index> by_stage(const std::vector<int>& stage) {
   return sorted;
 }
 
-// Eliminates the best variable, again and again, until none is left or `enough`.
+// Eliminates the best variable, again and again, until none is left or `enough` of the next
+// says so.
 template <class Graph, class Predicate>
 void run(Graph& g, const Preference& preference, Predicate enough) {
   const std::vector<Index> sorted = by_stage(g.stage);
@@ -84,7 +85,7 @@ void run(Graph& g, const Preference& preference, Predicate enough) {
       if (g.variables.alive[*at]) set_key(queue, *at, key(g, preference, *at));
     }
     while (!queue.empty()) {
-      if (enough()) return;
+      if (enough(queue.heap.front())) return;
       const Index v = pop(queue);
       if (!g.variables.alive[v]) continue;  // merged since
       const Index first = better_first(g, v);
@@ -104,7 +105,7 @@ void run(Graph& g, const Preference& preference, Predicate enough) {
 // before their pivot whose own fronts it does not know.
 Supervariables run_by_bounds(FillGraph&& g, const Preference& preference, Wide limit) {
   QuotientGraph rest = quotient_graph(std::move(g));
-  run(rest, preference, [&] { return rest.variables.ec > limit; });
+  run(rest, preference, [&](Index) { return rest.variables.ec > limit; });
   return std::move(rest.variables);
 }
 
@@ -149,7 +150,10 @@ GreedyResult greedy_fill(const Pattern& pattern, const Adjacency& graph,
   const Preference preference = preferences(graph.size(), options);
   FillGraph g = fill_graph(graph, pattern.dim, options.stage, work_limit);
   if (g.exact) {
-    run(g, preference, [&] { return g.work > work_limit || g.variables.ec > options.limit; });
+    run(g, preference, [&](Index next) {
+      return static_cast<double>(g.work) + least_work(g, next) > static_cast<double>(work_limit) ||
+             g.variables.ec > options.limit;
+    });
   }
   GreedyResult result{{}, g.variables.ec, g.work};
   if (result.ec > options.limit) return result;
