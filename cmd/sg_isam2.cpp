@@ -46,7 +46,7 @@ void add_thresholds(CLI::App& app, sg::Isam2Options& isam) {
 void add_options(sg::Command& command, Options& options) {
   sg::add_input(command, options.input);
   auto& app = command.app;
-  app.add_option("-m,--order", options.isam.ordering, "Order by which to eliminate anew (colamd)")
+  app.add_option("-m,--method,--ordering", options.isam.ordering, "Order by which to eliminate anew (colamd)")
       ->option_text("ORDERING");
   add_thresholds(app, options.isam);
   app.add_option("--min-obs", options.min_obs, "Landmarks enter with their M-th observation (1)")
