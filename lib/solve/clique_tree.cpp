@@ -100,14 +100,17 @@ void merge_into_parents(const BayesTree& tree, std::vector<Index>& target) {
 // that it is part of. Fills in the parents.
 std::vector<Index> number_cliques(const BayesTree& tree, const std::vector<Index>& target,
                                   CliqueTree& result) {
+  std::vector<Index> rank(tree.cliques(), -1);  // among those that stay, children before parents
   std::vector<Index> kept;
-  std::vector<Index> rank(tree.cliques(), -1);  // among the kept
-  std::vector<Index> parent;
-  for (Index c = 0; c < tree.cliques(); ++c) {
+  for (Index c = tree.cliques() - 1; c >= 0; --c) {
     if (target[c] != c) continue;
     rank[c] = static_cast<Index>(kept.size());
     kept.push_back(c);
-    parent.push_back(tree.parent[c] < 0 ? -1 : rank[target[tree.parent[c]]]);
+  }
+  std::vector<Index> parent(kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const Index p = tree.parent[kept[k]];
+    parent[k] = p < 0 ? -1 : rank[target[p]];
   }
   const std::vector<Index> post = postorder(parent);
   std::vector<Index> number(post.size());
