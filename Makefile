@@ -54,10 +54,10 @@ test:
 install: build ## install commands, man pages, library and CMake package (PREFIX=...)
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
-bench: deps ## run the benchmarks
+bench: deps ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
 	$(call need,$(BENCH_PACKAGES))
-	@$(MAKE) --no-print-directory build CMAKE_OPTIONS=-DSGTOOLS_BENCH=ON
-	@cmake -S . -B $(BUILD) -DSGTOOLS_BENCH=ON >/dev/null && cmake --build $(BUILD) -j $(JOBS)
+	@cmake --preset $(PRESET) -G Ninja -DSGTOOLS_BENCH=ON >/dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target benchmarks
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
 fuzz: deps ## fuzz every reader for 60 seconds under the sanitizers (SECONDS=60)
