@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   command.app.add_flag("--scalar", options.write.scalar,
                        "mtx: the scalar system matrix, not the block one");
   command.app.add_flag("--estimates", options.estimates,
-                       "In an edges-only file: add VERTEX lines, composed along odometry");
+                       "In an edges-only file: add VERTEX lines,\ncomposed along odometry");
   command.app.add_flag("--lossy", options.lossy, "Leave out what the format cannot hold");
   sg::add_output(command, options.output);
   return sg::run(command, argc, argv, [&] { convert(command, options); });

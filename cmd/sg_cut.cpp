@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false)
       ->option_text("ID,FIRST:LAST,...");
   app.add_option("--min-obs", options.min_obs,
-                 "With --poses: a landmark enters with its N-th observation (1)")
+                 "With --poses: a landmark enters with its\nN-th observation (default: 1)")
       ->check(CLI::PositiveNumber)
       ->option_text("N");
   sg::add_filter_output(command, options.output);

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
                   "the default), aligned (0), random")
       ->type_name("KIND")
       ->check(CLI::IsMember(offsets).description(""));
-  command.app.add_option("--seed", seed, "Of random offsets (1)")->type_name("N");
+  command.app.add_option("--seed", seed, "Of random offsets (default: 1)")->type_name("N");
   sg::add_candidates(command, kind_name);
   sg::add_min_obs(command, min_obs);
   sg::add_filter_output(command, output);

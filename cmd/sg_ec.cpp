@@ -136,7 +136,7 @@ void add_options(sg::Command& command, Options& options) {
       ->check(CLI::PositiveNumber)
       ->option_text("K");
   app.add_option("--min-obs", options.min_obs,
-                 "With --trace: a landmark enters with its M-th observation")
+                 "With --trace: a landmark enters with its\nM-th observation (default: 1)")
       ->needs(trace)
       ->check(CLI::PositiveNumber)
       ->option_text("M");

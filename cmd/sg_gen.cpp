@@ -264,7 +264,7 @@ struct World {
 };
 
 constexpr World worlds[] = {
-    {"sine", "The paper's simulation: a camera on a sinusoidal path", add_sine},
+    {"sine", "The paper's simulation: a camera on a sine", add_sine},
     {"worst", "Every landmark seen from every pose", add_worst},
     {"manhattan", "A random walk on streets, with loop closures", add_manhattan},
     {"city", "A random walk on streets, with landmarks", add_city},

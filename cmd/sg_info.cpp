@@ -50,14 +50,15 @@ std::vector<Fact> facts(const sg::Graph& graph, std::string_view format) {
 }
 
 // One fact a line; or, as JSON, one object.
-void print(const std::vector<Fact>& facts, const sg::TableOptions& options) {
+void print(const std::vector<Fact>& facts, const sg::TableOptions& options,
+           const std::string& path) {
   std::vector<std::string_view> keys;
   std::vector<sg::Cell> values;
   for (const auto& [key, value] : facts) {
     keys.push_back(key);
     values.push_back(value);
   }
-  sg::Output output("");
+  sg::Output output(path);
   if (options.json) {
     sg::Table(options, keys, output).row(values);
     return output.commit();
@@ -80,7 +81,9 @@ int main(int argc, char** argv) {
   sg::Command command("sg-info", "Say what is in a graph file.");
   sg::Input input;
   sg::TableOptions options;
+  sg::OutputOptions output;
   sg::add_input(command, input);
+  sg::add_output(command, output);
   command.app.add_option("-f,--fields", options.columns, "Only these keys, in this order")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -93,6 +96,6 @@ int main(int argc, char** argv) {
     const sg::Graph graph = sg::read(input, text);
     std::vector<Fact> all = facts(graph, sg::find_format(input.options, text.view).name);
     for (const auto& [tag, lines] : sg::count_tags(text.view)) all.emplace_back(tag, count(lines));
-    print(all, options);
+    print(all, options, output.path);
   });
 }

@@ -30,15 +30,15 @@ struct Options {
 
 void add_thresholds(CLI::App& app, sg::Isam2Options& isam) {
   app.add_option("--relinearize-threshold", isam.relinearize_threshold,
-                 "Relinearize vertices X or more away (0.1)")
+                 "Relinearize vertices X or more away (default: 0.1)")
       ->option_text("X")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--relinearize-skip", isam.relinearize_skip,
-                 "Do so in every N-th step; 0: never (1)")
+                 "Do so in every N-th step; 0: never (default: 1)")
       ->option_text("N")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--wildfire-threshold", isam.wildfire_threshold,
-                 "Pass on changes of X or more (0.001)")
+                 "Pass on changes of X or more (default: 0.001)")
       ->option_text("X")
       ->check(CLI::NonNegativeNumber);
 }
@@ -46,10 +46,11 @@ void add_thresholds(CLI::App& app, sg::Isam2Options& isam) {
 void add_options(sg::Command& command, Options& options) {
   sg::add_input(command, options.input);
   auto& app = command.app;
-  app.add_option("-m,--method,--ordering", options.isam.ordering, "Order by which to eliminate anew (colamd)")
-      ->option_text("ORDERING");
+  app.add_option("-m,--method,--ordering", options.isam.ordering,
+                 "Ordering to eliminate anew by (default: colamd)")
+      ->option_text("METHOD");
   add_thresholds(app, options.isam);
-  app.add_option("--min-obs", options.min_obs, "Landmarks enter with their M-th observation (1)")
+  app.add_option("--min-obs", options.min_obs, "Landmarks enter when seen M times (default: 1)")
       ->option_text("M")
       ->check(CLI::PositiveNumber);
   app.add_option_function<std::string>(

@@ -35,10 +35,11 @@ void add_options(sg::Command& command, Options& options) {
   app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
       ->check(CLI::IsMember({"xy", "xz", "yz"}).description(""))
       ->option_text("PLANE");
-  app.add_option("--width", options.size.width, "Of the picture, in points or pixels (600)")
+  app.add_option("--width", options.size.width,
+                 "Of the picture, in points or pixels (default: 600)")
       ->check(CLI::Range(64, 20000).description(""))
       ->option_text("N");
-  app.add_option("--height", options.size.height, "The same (600)")
+  app.add_option("--height", options.size.height, "The same (default: 600)")
       ->check(CLI::Range(64, 20000).description(""))
       ->option_text("N");
   sg::add_output(command, options.output);

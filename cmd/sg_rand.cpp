@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   sg::add_input(command, input);
   sg::add_amount(command, amount);
-  command.app.add_option("--seed", seed, "Of the choice (1)")->type_name("N");
+  command.app.add_option("--seed", seed, "Of the choice (default: 1)")->type_name("N");
   sg::add_candidates(command, kind_name);
   sg::add_min_obs(command, min_obs);
   sg::add_filter_output(command, output);

@@ -39,7 +39,7 @@ CLI::Validator at_least_one() {
 }
 
 void add_min_obs(Command& command, Index& min_obs) {
-  command.app.add_option("--min-obs", min_obs, "Landmarks left with fewer observations leave (1)")
+  command.app.add_option("--min-obs", min_obs, "Landmarks with fewer observations go (default: 1)")
       ->type_name("M")
       ->check(at_least_one());
 }
