@@ -11,7 +11,7 @@ BUILD_PACKAGES := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev li
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
 	libcairo2-dev libspectra-dev pkg-config
 TEST_PACKAGES  := catch2 bats mandoc graphviz zstd gzip
-LINT_PACKAGES  := clang-format clang-tidy mandoc
+LINT_PACKAGES  := clang-format clang-tidy mandoc git
 BENCH_PACKAGES := libbenchmark-dev
 FUZZ_PACKAGES  := clang libclang-rt-14-dev
 PLOT_PACKAGES  := gnuplot-nox graphviz
@@ -60,7 +60,7 @@ bench: deps ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
 	@cmake --build $(BUILD) -j $(JOBS) --target benchmarks
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
-fuzz: deps ## fuzz every reader for 60 seconds under the sanitizers (SECONDS=60)
+fuzz: deps ## fuzz every reader for 60 seconds under the sanitizers (FUZZ_SECONDS=60)
 	$(call need,$(FUZZ_PACKAGES))
 	@$(MAKE) --no-print-directory build/fuzz/build.ninja PRESET=fuzz
 	@cmake --build build/fuzz -j $(JOBS) --target fuzzers
@@ -78,7 +78,7 @@ orderings: build ## every ordering on every graph, into out/orderings (GRAPHS=".
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
 format: ## rewrite the sources in the project's style
-	$(call need,clang-format)
+	$(call need,clang-format git)
 	@clang-format -i $(SOURCES)
 
 lint: build ## check style, includes, sources and man pages

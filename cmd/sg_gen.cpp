@@ -312,13 +312,16 @@ int main(int argc, char** argv) {
   sg::Command command("sg-gen", "Generate a graph. `sg-gen WORLD --help` lists a world's options.");
   Files files;
   std::map<const CLI::App*, Maker> makers;
-  command.app.require_subcommand(1);
+  command.app.require_subcommand(0, 1);  // what is left over then, a wrong world, is named
+  command.app.get_formatter()->label("SUBCOMMAND", "WORLD");
   for (const World& world : worlds) {
-    CLI::App* app = command.app.add_subcommand(world.name, world.what)->fallthrough();
+    CLI::App* app =
+        command.app.add_subcommand(world.name, world.what)->group("Worlds")->fallthrough();
     makers[app] = world.add(*app);
     add_files(*app, files);
   }
   return sg::run(command, argc, argv, [&] {
+    if (command.app.get_subcommands().empty()) throw sg::usage_error("which WORLD?");
     generate(command, files, makers.at(command.app.get_subcommands().front()));
   });
 }

@@ -3,7 +3,7 @@ load ../common
 # What a newcomer asks first. Every command has a manual page; the worlds of sg-gen have a help text each.
 MAN=$TESTDATA/../man
 commands=$(cd "$MAN" && printf '%s\n' sg-*.1 | sed 's/\.1$//')
-worlds=$(sg-gen --help | sed -n '/^Subcommands:/,$s/^  \([a-z0-9]*\) .*/\1/p')
+worlds=$(sg-gen --help | sed -n '/^Worlds:/,$s/^  \([a-z0-9]*\) .*/\1/p')
 
 helps() { printf '%s\n' $commands; printf 'sg-gen %s\n' $worlds; }
 

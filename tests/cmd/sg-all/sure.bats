@@ -1,14 +1,15 @@
 load ../common
 
-# What no command may get wrong. Each of these reads a graph; each of the filters writes one as well.
-readers='sg-info sg-ec sg-convert sg-bayes sg-order'
-filters=('sg-cut --largest' 'sg-order -m id' 'sg-dec -r 2' 'sg-rand -r 2' 'sg-kf -r 2')
+# What no command may get wrong. Each of these reads a graph; each of the filters writes one as well. sg-check, which reads
+# on where others stop, and sg-gen, which reads nothing, have their own lines below.
+filters=('sg-cut --largest' 'sg-order -m id' 'sg-dec -r 2' 'sg-rand -r 2' 'sg-kf -r 2' 'sg-tgreedy -r 2')
+readers=("${filters[@]}" sg-bayes sg-convert sg-ec sg-elim sg-info sg-isam2 'sg-plot map' 'sg-predict -r 2' sg-score sg-solve)
 
 setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 
 # refuse MESSAGE: of in.g2o, every reader says so and ends with 1; sg-check finds it.
 refuse() {
-  for reader in $readers; do fails 1 "$reader: in.g2o:$1" "$reader" in.g2o || return; done
+  for reader in "${readers[@]}"; do fails 1 "${reader%% *}: in.g2o:$1" $reader in.g2o || return; done
   code=0
   sg-check in.g2o >found || code=$?
   [ $code = 1 ] && [[ $(cat found) == *"in.g2o:${1%% *} error: ${1#* }"* ]]
@@ -70,9 +71,9 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
 
 @test "a directory and a missing file as input" {
   mkdir folder
-  for reader in $readers sg-check; do
-    fails 1 "$reader: folder: Is a directory" "$reader" folder
-    fails 1 "$reader: missing.g2o: No such file or directory" "$reader" missing.g2o
+  for reader in "${readers[@]}" sg-check; do
+    fails 1 "${reader%% *}: folder: Is a directory" $reader folder
+    fails 1 "${reader%% *}: missing.g2o: No such file or directory" $reader missing.g2o
   done
 }
 
@@ -97,7 +98,7 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
 }
 
 @test "a rate of 0 or -1" {
-  for command in 'sg-dec -r' 'sg-rand -r' 'sg-kf -r' 'sg-cut --poses'; do
+  for command in 'sg-dec -r' 'sg-rand -r' 'sg-kf -r' 'sg-tgreedy -r' 'sg-predict -r' 'sg-cut --poses' 'sg-gen worst -n'; do
     for rate in 0 -1; do
       code=0
       said=$($command $rate walk.g2o 2>&1 >out) || code=$?
@@ -109,19 +110,24 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
 
 @test "a full disk" {
   [ -c /dev/full ] || skip "no /dev/full here"
-  for filter in "${filters[@]}"; do
-    fails 3 "${filter%% *}: /dev/full: cannot write: No space left on device" $filter -o /dev/full walk.g2o
-    fails 3 "${filter%% *}: <stdout>: cannot write: No space left on device" \
-      bash -c "exec $filter walk.g2o 3>&1 >/dev/full"
+  printf 'EDGE_SE2 0 0 1 0 0 1 0 0 1 0 1\n' >loop.g2o
+  for call in "${readers[@]/%/ walk.g2o}" 'sg-check loop.g2o' 'sg-gen worst'; do
+    fails 3 "${call%% *}: <stdout>: cannot write: No space left on device" bash -c "exec $call >/dev/full"
+    [[ $call != sg-plot* ]] || continue  # whose -o wants the name of a picture
+    fails 3 "${call%% *}: /dev/full: cannot write: No space left on device" $call -o /dev/full
   done
+  fails 3 "sg-gen: /dev/full: cannot write: No space left on device" sg-gen worst --truth /dev/full
+  rm loop.g2o
   alone walk.g2o
 }
 
 @test "an output in a missing folder, or a folder itself" {
-  for filter in "${filters[@]}"; do
-    fails 3 "${filter%% *}: no/out.g2o: cannot create: No such file or directory" $filter -o no/out.g2o walk.g2o
-    fails 3 "${filter%% *}: .: cannot open: Is a directory" $filter -o . walk.g2o
+  mkdir folder.svg
+  for call in "${readers[@]/%/ walk.g2o}" 'sg-check walk.g2o' 'sg-gen worst'; do
+    fails 3 "${call%% *}: no/out.svg: cannot create: No such file or directory" $call -o no/out.svg
+    fails 3 "${call%% *}: folder.svg: cannot open: Is a directory" $call -o folder.svg
   done
+  rmdir folder.svg
   alone walk.g2o
 }
 
@@ -159,10 +165,24 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
   done
 }
 
+@test "a reader that is gone before the first byte ends a command quietly" {
+  printf 'EDGE_SE2 0 0 1 0 0 1 0 0 1 0 1\n' >loop.g2o
+  mkfifo pipe
+  for call in "${readers[@]/%/ walk.g2o}" 'sg-check loop.g2o' 'sg-gen worst'; do
+    exec 5<>pipe 6>pipe 5<&-
+    code=0
+    $call >&6 2>said || code=$?
+    exec 6>&-
+    # What sg-check found is its status, whoever reads it.
+    [ $code = 0 ] || [[ $call == sg-check* && $code = 1 ]] && [ ! -s said ] ||
+      { echo "$call: status $code, $(cat said)" >&2; return 1; }
+  done
+}
+
 @test "a filter that removes nothing gives the same bytes" {
   { printf '# head\r\n\n \tVERTEX_SE2 0 0 0 0\r\nROBOTLASER1 0 1 2\nVERTEX_SE2  1 1e0 +0 -0\nFIX 0 0\r\n# between\n'
     printf 'VERTEX_XY 9 1 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\r\n\r\nEDGE_SE2_XY 0 9 1 1 1 0 1\nEDGE_SE2_XY 1 9 0 1 1 0 1'; } >in.g2o
-  for filter in 'sg-cut --largest' 'sg-dec -r 1' 'sg-rand -p 1' 'sg-kf -r 1' 'sg-convert'; do
+  for filter in 'sg-cut --largest' 'sg-dec -r 1' 'sg-rand -p 1' 'sg-tgreedy -p 1' 'sg-kf -r 1' 'sg-convert'; do
     option=--no-trace-comment
     [ "$filter" != sg-convert ] || option=
     $filter $option in.g2o >out.g2o
