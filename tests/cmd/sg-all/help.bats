@@ -8,7 +8,7 @@ worlds=$(sg-gen --help | sed -n '/^Worlds:/,$s/^  \([a-z0-9]*\) .*/\1/p')
 helps() { printf '%s\n' $commands; printf 'sg-gen %s\n' $worlds; }
 
 # long_options FILE: of a help text. documented PAGE...: of the items of a manual page.
-long_options() { sed -nE 's/^  (-[a-zA-Z],)?(--[a-z0-9-]+).*/\2/p' "$@" | sort -u; }
+long_options() { awk '/^  -/ {print $1}' "$@" | tr , '\n' | grep -- '^--' | sort -u; }
 documented() {
   awk '/^\.(It|Op|Fl|Oo) / && /Fl/ || /^\.Fl / {
     for (i = 2; i < NF; i++) if ($i == "Fl" && $(i + 1) ~ /^\\?-[a-z]/) print "-" $(i + 1)
