@@ -1,7 +1,7 @@
 # Thin: CMake builds, ctest tests, experiments/ holds the experiments.  `make help` lists the targets.
 PRESET ?= release
 PREFIX ?= /usr/local
-WERROR ?= OFF
+WERROR ?=
 BUILD  := build/$(PRESET)
 BIN    := $(CURDIR)/$(BUILD)/bin
 JOBS   ?= $(shell nproc)
@@ -36,11 +36,11 @@ endef
 deps: ## install what building and testing need from Debian's packages
 	$(call need,$(BUILD_PACKAGES) $(TEST_PACKAGES))
 
-$(BUILD)/build.ninja: CMakeLists.txt CMakePresets.json
-	@cmake --preset $(PRESET) -G Ninja -DSGTOOLS_WERROR=$(WERROR) $(CMAKE_OPTIONS)
+# Anew every time, which takes a second: WERROR=ON|OFF then reaches a tree that stands already. The preset has a default.
+configure = cmake --preset $(PRESET) -G Ninja $(if $(WERROR),-DSGTOOLS_WERROR=$(WERROR)) >/dev/null
 
 build: deps ## build the commands and the tests (PRESET=dev|release|asan|tsan)
-	@$(MAKE) --no-print-directory $(BUILD)/build.ninja
+	@$(configure)
 	@cmake --build $(BUILD) -j $(JOBS)
 
 demo: build ## generate | prune | reorder | score, as one table (GRAPHS="a.g2o b.g2o" adds yours)
@@ -56,13 +56,14 @@ install: build ## install commands, man pages, library and CMake package (PREFIX
 
 bench: deps ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
 	$(call need,$(BENCH_PACKAGES))
-	@cmake --preset $(PRESET) -G Ninja -DSGTOOLS_BENCH=ON >/dev/null
+	@$(configure) -DSGTOOLS_BENCH=ON
 	@cmake --build $(BUILD) -j $(JOBS) --target benchmarks
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
+fuzz: PRESET := fuzz
 fuzz: deps ## fuzz every reader for 60 seconds under the sanitizers (FUZZ_SECONDS=60)
 	$(call need,$(FUZZ_PACKAGES))
-	@$(MAKE) --no-print-directory build/fuzz/build.ninja PRESET=fuzz
+	@$(configure)
 	@cmake --build build/fuzz -j $(JOBS) --target fuzzers
 	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
 
