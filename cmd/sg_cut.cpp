@@ -29,6 +29,7 @@ std::pair<sg::Id, sg::Id> parse_range(std::string_view text) {
 
 sg::Part ranges_of_ids(const sg::Graph& graph, const std::vector<std::string>& ids) {
   std::vector<std::pair<sg::Id, sg::Id>> ranges;
+  ranges.reserve(ids.size());
   for (const auto& text : ids) ranges.push_back(parse_range(text));
   return sg::of_ids(graph, ranges);
 }

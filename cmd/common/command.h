@@ -61,7 +61,6 @@ struct OutputOptions {
 void add_output(Command& command, OutputOptions& output);
 void add_filter_output(Command& command, OutputOptions& output);
 void add_filter_output(CLI::App& app, OutputOptions& output);  // of one of a command's jobs
-void add_filter_output(CLI::App& app, OutputOptions& output);  // of a command of commands
 
 // "# sg-dec -r 4 in.g2o\n", or nothing after --no-trace-comment.
 std::string trace_comment(const Command& command, const OutputOptions& output);
