@@ -50,6 +50,12 @@ int usage_failure(const Command& command, const std::string& cause) {
   return static_cast<int>(Fault::usage);
 }
 
+// CLI11 spells out the limits of double, 309 digits, where any number above 0 would do.
+std::string readable(std::string cause) {
+  if (cause.find(" to 17976931348623157") == cause.npos) return cause;
+  return cause.substr(0, cause.find(" not in range")) + " is out of range";
+}
+
 // Prints --help or --version, whose text is an output like any other.
 int print(const std::string& text) {
   Output output("");
@@ -104,7 +110,7 @@ int run_status(Command& command, int argc, char** argv, const std::function<int(
     } catch (const CLI::CallForVersion& version) {
       return print(std::string(version.what()) + "\n");
     } catch (const CLI::ParseError& error) {
-      return usage_failure(command, error.what());
+      return usage_failure(command, readable(error.what()));
     }
     return work();
   });
