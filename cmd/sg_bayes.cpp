@@ -1,3 +1,5 @@
+#include <algorithm>
+
 // sg-bayes: the Bayes tree of an elimination, as a table or as a drawing.
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
@@ -24,12 +26,14 @@ struct NamedTree {
   std::vector<sg::IdList> separator;
 };
 
-std::vector<sg::IdList> ids(const std::vector<std::vector<sg::Index>>& positions,
-                            const sg::Graph& graph, const sg::GraphPattern& variables,
-                            const sg::Order& order) {
+// In elimination order.
+std::vector<sg::IdList> ids(const sg::Groups& positions, const sg::Graph& graph,
+                            const sg::GraphPattern& variables, const sg::Order& order) {
   std::vector<sg::IdList> result(positions.size());
-  for (std::size_t c = 0; c < positions.size(); ++c) {
-    for (const sg::Index k : positions[c])
+  for (sg::Index c = 0; c < positions.size(); ++c) {
+    std::vector<sg::Index> sorted(positions[c].begin(), positions[c].end());
+    std::sort(sorted.begin(), sorted.end());
+    for (const sg::Index k : sorted)
       result[c].push_back(graph.id[variables.variable_vertex[order[k]]]);
   }
   return result;

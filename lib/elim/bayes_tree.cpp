@@ -1,8 +1,26 @@
 #include "lib/elim/bayes_tree.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace sg {
+namespace {
+
+// The same groups, the last first.
+Groups reversed(const Groups& groups) {
+  Groups result;
+  result.begin.reserve(groups.begin.size());
+  result.begin.push_back(0);
+  result.items.reserve(groups.items.size());
+  for (Index k = groups.size() - 1; k >= 0; --k) {
+    result.items.insert(result.items.end(), groups[k].begin(), groups[k].end());
+    result.begin.push_back(static_cast<Index>(result.items.size()));
+  }
+  return result;
+}
+
+}  // namespace
 
 BayesTree bayes_tree(const Symbolic& symbolic) {
   const auto n = static_cast<Index>(symbolic.parent.size());
@@ -30,32 +48,39 @@ BayesTree bayes_tree(const Symbolic& symbolic) {
   return tree;
 }
 
-std::vector<std::vector<Index>> clique_frontals(const BayesTree& tree) {
-  std::vector<std::vector<Index>> result(tree.cliques());
-  for (Index k = 0; k < static_cast<Index>(tree.clique.size()); ++k)
-    result[tree.clique[k]].push_back(k);
-  return result;
+Groups clique_frontals(const BayesTree& tree) {
+  return grouped(tree.clique, tree.cliques());
 }
 
-std::vector<std::vector<Index>> clique_separators(const OrderedPattern& pattern,
-                                                  const BayesTree& tree) {
-  // What a clique's variables meet beyond the clique: in factors, and through its children.
-  std::vector<std::vector<Index>> result(tree.cliques());
-  const auto add = [&](Index c, std::span<const Index> positions) {
-    for (const Index k : positions) {
-      if (k > tree.top[c]) result[c].push_back(k);
+Groups clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
+  const Index cliques = tree.cliques();
+  const Groups children = grouped(tree.parent, cliques);
+  std::vector<Index> row_clique(pattern.rows());
+  for (Index r = 0; r < pattern.rows(); ++r) row_clique[r] = tree.clique[pattern.row(r).front()];
+  const Groups rows = grouped(row_clique, cliques);
+
+  // From the leaves up: list c belongs to clique (cliques - 1 - c) until the end.
+  Groups result;
+  result.begin.push_back(0);
+  std::vector<Index> seen(pattern.variables(), -1);
+  for (Index c = cliques - 1; c >= 0; --c) {
+    const auto take = [&](std::span<const Index> positions) {
+      for (Index p : positions) {
+        if (tree.clique[p] == c || seen[p] == c) continue;
+        seen[p] = c;
+        result.items.push_back(p);
+      }
+    };
+    for (Index r : rows[c]) take(pattern.row(r));
+    for (Index child : children[c]) {
+      // By index: `take` may move the items.
+      const Index list = cliques - 1 - child;
+      for (Index i = result.begin[list]; i < result.begin[list + 1]; ++i)
+        take(std::array{result.items[i]});
     }
-  };
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    const auto row = pattern.row(r);
-    add(tree.clique[row.front()], row);
+    result.begin.push_back(static_cast<Index>(result.items.size()));
   }
-  for (Index c = tree.cliques() - 1; c >= 0; --c) {
-    std::sort(result[c].begin(), result[c].end());
-    result[c].erase(std::unique(result[c].begin(), result[c].end()), result[c].end());
-    if (tree.parent[c] >= 0) add(tree.parent[c], result[c]);
-  }
-  return result;
+  return reversed(result);
 }
 
 }  // namespace sg

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/elim/score.h"
+#include "lib/graph/groups.h"
 
 namespace sg {
 
@@ -24,10 +25,9 @@ struct BayesTree {
 BayesTree bayes_tree(const Symbolic& symbolic);
 
 // The positions of every clique's frontal variables, ascending.
-std::vector<std::vector<Index>> clique_frontals(const BayesTree& tree);
-// The positions of every clique's separator, ascending. Unlike the dimensions above they take the
+Groups clique_frontals(const BayesTree& tree);
+// The positions of every clique's separator, in no order. Unlike the dimensions above they take the
 // space of all cliques together.
-std::vector<std::vector<Index>> clique_separators(const OrderedPattern& pattern,
-                                                  const BayesTree& tree);
+Groups clique_separators(const OrderedPattern& pattern, const BayesTree& tree);
 
 }  // namespace sg

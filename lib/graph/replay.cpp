@@ -1,7 +1,6 @@
 #include "lib/graph/replay.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace sg {
 namespace {
@@ -137,21 +136,6 @@ Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs) {
       step = std::max(step, result.vertex_step[v]);
     }
     if (all) result.edge_step[e] = step;
-  }
-  return result;
-}
-
-ByStep by_step(const std::vector<Index>& step, Index steps) {
-  ByStep result;
-  result.begin.assign(steps + 1, 0);
-  for (Index k : step) {
-    if (k >= 0) ++result.begin[k + 1];
-  }
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.items.resize(result.begin.back());
-  std::vector<Index> at(result.begin.begin(), result.begin.end() - 1);
-  for (Index i = 0; i < static_cast<Index>(step.size()); ++i) {
-    if (step[i] >= 0) result.items[at[step[i]]++] = i;
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/graph/graph.h"
+#include "lib/graph/groups.h"
 
 namespace sg {
 
@@ -40,15 +41,10 @@ struct Replay {
 };
 Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs = 1);
 
-// Edges by step: the edges of step k, ascending. (Counting sort of Replay::edge_step; edges of step
-// -1 are left out.)
-struct ByStep {
-  std::vector<Index> begin;  // steps + 1
-  std::vector<Index> items;
-  std::span<const Index> operator[](Index k) const {
-    return {items.data() + begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k])};
-  }
-};
-ByStep by_step(const std::vector<Index>& step, Index steps);
+// Vertices or edges by step: those of step k, ascending. Those of step -1 are left out.
+using ByStep = Groups;
+inline ByStep by_step(const std::vector<Index>& step, Index steps) {
+  return grouped(step, steps);
+}
 
 }  // namespace sg

@@ -1,7 +1,6 @@
 #include "lib/solve/clique_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "lib/elim/bayes_tree.h"
@@ -10,63 +9,6 @@
 
 namespace sg {
 namespace {
-
-// Lists of equal rank, laid flat: begin has one more than there are lists.
-struct Lists {
-  std::vector<Index> begin;
-  std::vector<Index> items;
-  std::span<const Index> operator[](Index k) const {
-    return {items.data() + begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k])};
-  }
-};
-
-// The items k = 0.. by key[k], those of key -1 left out.
-Lists grouped(const std::vector<Index>& key, Index keys) {
-  Lists lists;
-  lists.begin.assign(keys + 1, 0);
-  for (Index k : key) {
-    if (k >= 0) ++lists.begin[k + 1];
-  }
-  std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
-  lists.items.resize(lists.begin.back());
-  std::vector<Index> at(lists.begin.begin(), lists.begin.end() - 1);
-  for (Index i = 0; i < static_cast<Index>(key.size()); ++i) {
-    if (key[i] >= 0) lists.items[at[key[i]]++] = i;
-  }
-  return lists;
-}
-
-// The separators of a Bayes tree's cliques, as unsorted positions. List c belongs to clique
-// (cliques - 1 - c): they are made from the leaves up.
-Lists separators(const OrderedPattern& pattern, const BayesTree& tree) {
-  const Index cliques = tree.cliques();
-  const Lists children = grouped(tree.parent, cliques);
-  std::vector<Index> row_clique(pattern.rows());
-  for (Index r = 0; r < pattern.rows(); ++r) row_clique[r] = tree.clique[pattern.row(r).front()];
-  const Lists rows = grouped(row_clique, cliques);
-
-  Lists result;
-  result.begin.push_back(0);
-  std::vector<Index> seen(pattern.variables(), -1);
-  for (Index c = cliques - 1; c >= 0; --c) {
-    const auto take = [&](std::span<const Index> positions) {
-      for (Index p : positions) {
-        if (tree.clique[p] == c || seen[p] == c) continue;
-        seen[p] = c;
-        result.items.push_back(p);
-      }
-    };
-    for (Index r : rows[c]) take(pattern.row(r));
-    for (Index child : children[c]) {
-      // By index: `take` may move the items.
-      const Index list = cliques - 1 - child;
-      for (Index i = result.begin[list]; i < result.begin[list + 1]; ++i)
-        take(std::array{result.items[i]});
-    }
-    result.begin.push_back(static_cast<Index>(result.items.size()));
-  }
-  return result;
-}
 
 // Nanoseconds, roughly, that a front of f frontal and n rows takes: a fixed part, a pass over its
 // numbers, and the multiplications. Only the ratio of the three matters.
@@ -142,12 +84,12 @@ void sum_up(const BayesTree& tree, const std::vector<Index>& clique,
 
 // Frontals and separators as variables, in elimination order.
 void list_variables(const BayesTree& tree, const Order& order, const std::vector<Index>& target,
-                    const std::vector<Index>& clique, const Lists& separator_positions,
+                    const std::vector<Index>& clique, const Groups& separator_positions,
                     CliqueTree& result) {
   const auto n = static_cast<Index>(order.size());
   std::vector<Index> clique_at(n);
   for (Index k = 0; k < n; ++k) clique_at[k] = clique[tree.clique[k]];
-  Lists frontals = grouped(clique_at, result.cliques());
+  Groups frontals = grouped(clique_at, result.cliques());
   std::vector<Index> rank(n);  // of a position in the new order
   for (Index k = 0; k < n; ++k) rank[frontals.items[k]] = k;
 
@@ -158,8 +100,7 @@ void list_variables(const BayesTree& tree, const Order& order, const std::vector
   result.separator_begin.assign(1, 0);
   for (Index c : kept) {
     const auto begin = static_cast<std::ptrdiff_t>(result.separators.size());
-    for (Index p : separator_positions[tree.cliques() - 1 - c])
-      result.separators.push_back(rank[p]);
+    for (Index p : separator_positions[c]) result.separators.push_back(rank[p]);
     std::sort(result.separators.begin() + begin, result.separators.end());
     result.separator_begin.push_back(static_cast<Index>(result.separators.size()));
   }
@@ -203,7 +144,7 @@ CliqueTree clique_tree(const Pattern& pattern, const Order& order, bool relaxed)
   CliqueTree result;
   const std::vector<Index> clique = number_cliques(tree, target, result);
   sum_up(tree, clique, target, result);
-  list_variables(tree, order, target, clique, separators(by_position, tree), result);
+  list_variables(tree, order, target, clique, clique_separators(by_position, tree), result);
   place_rows(pattern, result);
   return result;
 }
