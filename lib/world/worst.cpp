@@ -1,6 +1,9 @@
 #include "lib/world/worst.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "lib/graph/error.h"
 
 namespace sg {
 namespace {
@@ -19,6 +22,9 @@ std::vector<Eigen::Vector3d> landmarks_before(double length, const Worst& world)
 }  // namespace
 
 LandmarkGraph worst(const Worst& world) {
+  // Before anything of that size is made.
+  if (world.landmarks > 0 && world.poses > std::numeric_limits<Index>::max() / world.landmarks)
+    throw computation_error("more observations than a graph can hold");
   LandmarkGraph graph = begin_landmark_graph(world);
   const double line = world.step * (world.poses - 1);
   graph.landmarks = landmarks_before(std::max(10.0, line), world);
