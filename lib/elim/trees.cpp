@@ -33,7 +33,8 @@ Index root(std::vector<Index>& part, Index node) {
   return node;
 }
 
-void find_parts(SpanningTrees& trees, std::span<const Link> links, std::span<const double> weight) {
+void find_parts(SpanningTrees& trees, std::span<const TreeEdge> links,
+                std::span<const double> weight) {
   trees.part.resize(trees.position.size());
   std::iota(trees.part.begin(), trees.part.end(), 0);
   for (std::size_t k = 0; k < links.size(); ++k) {
@@ -45,7 +46,7 @@ void find_parts(SpanningTrees& trees, std::span<const Link> links, std::span<con
 }
 
 // The lower triangle of the grounded Laplacian, links of weight 0 included.
-cholmod_sparse* laplacian(SpanningTrees& trees, std::span<const Link> links,
+cholmod_sparse* laplacian(SpanningTrees& trees, std::span<const TreeEdge> links,
                           std::span<const double> weight, cholmod_common& common) {
   const Index n = static_cast<Index>(trees.part.size());
   cholmod_triplet* triplet =
@@ -90,7 +91,8 @@ void take_factor(SpanningTrees& trees, const cholmod_factor& factor) {
   }
 }
 
-void factorize(SpanningTrees& trees, std::span<const Link> links, std::span<const double> weight) {
+void factorize(SpanningTrees& trees, std::span<const TreeEdge> links,
+               std::span<const double> weight) {
   Common session;
   cholmod_common& common = session.common;
   cholmod_sparse* matrix = laplacian(trees, links, weight, common);
@@ -133,7 +135,7 @@ void update(SpanningTrees& trees, Index start, double scale) {
 
 }  // namespace
 
-SpanningTrees spanning_trees(Index nodes, std::span<const Link> links,
+SpanningTrees spanning_trees(Index nodes, std::span<const TreeEdge> links,
                              std::span<const double> weight) {
   SpanningTrees trees;
   trees.position.resize(nodes);
@@ -147,11 +149,11 @@ SpanningTrees spanning_trees(Index nodes, std::span<const Link> links,
   return trees;
 }
 
-bool joined(SpanningTrees& trees, const Link& link) {
+bool joined(SpanningTrees& trees, const TreeEdge& link) {
   return root(trees.part, link.u) == root(trees.part, link.v);
 }
 
-double resistance(SpanningTrees& trees, const Link& link) {
+double resistance(SpanningTrees& trees, const TreeEdge& link) {
   if (link.u == link.v) return 0;
   auto& x = trees.work;
   x[trees.position[link.u]] = 1;
@@ -170,11 +172,11 @@ double resistance(SpanningTrees& trees, const Link& link) {
   return sum;
 }
 
-double gain(SpanningTrees& trees, const Link& link, double weight) {
+double gain(SpanningTrees& trees, const TreeEdge& link, double weight) {
   return joined(trees, link) ? std::log1p(weight * resistance(trees, link)) : std::log(weight);
 }
 
-double add_link(SpanningTrees& trees, const Link& link, double weight) {
+double add_link(SpanningTrees& trees, const TreeEdge& link, double weight) {
   if (link.u == link.v) return 0;
   const double result = gain(trees, link, weight);
   const Index u = trees.position[link.u], v = trees.position[link.v];

@@ -53,7 +53,7 @@ struct Search {
   const OrderOptions& options;
   Adjacency graph;
   std::vector<int> stage;  // 1 of the variables of `last`
-  Elimination best;
+  OrderedElimination best;
   std::vector<double> cost;  // running sum of the costs of best's variables
 };
 
@@ -64,7 +64,7 @@ struct Try {
   Wide gain = 0;
 };
 
-void take(Search& search, Elimination&& elimination) {
+void take(Search& search, OrderedElimination&& elimination) {
   search.best = std::move(elimination);
   search.cost.clear();
   double sum = 0;
@@ -167,7 +167,7 @@ void take_best_method(Search& search, const Clock& clock) {
   for (const Ordering& method : orderings()) {
     if (method.compute != best) methods.push_back(&method);
   }
-  std::vector<Elimination> found(methods.size());
+  std::vector<OrderedElimination> found(methods.size());
   tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {
     found[i] =
         elimination(search.pattern, elimination_order(*methods[i], search.pattern, search.options));
@@ -187,10 +187,10 @@ void take_round(Search& search, std::vector<Try>& tries, int done, const Clock& 
         return (a.order.empty() ? 0 : a.gain) < (b.order.empty() ? 0 : b.gain);
       });
   const Order fresh = restarted->order;
-  Elimination improved = elimination(search.pattern, with_improvements(search, tries));
+  OrderedElimination improved = elimination(search.pattern, with_improvements(search, tries));
   std::string_view how = "local";
   if (!fresh.empty()) {
-    Elimination other = elimination(search.pattern, fresh);
+    OrderedElimination other = elimination(search.pattern, fresh);
     if (other.ec < improved.ec) {
       improved = std::move(other);
       how = "restart";

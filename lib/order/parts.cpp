@@ -20,9 +20,9 @@ std::vector<Index> reachable(const Adjacency& graph, Index first, std::vector<bo
 }
 
 // `number` is scratch space of n.
-Part part_of(const Pattern& pattern, const Adjacency& graph, const std::vector<Index>& variables,
-             std::vector<Index>& number) {
-  Part part;
+ConnectedPart part_of(const Pattern& pattern, const Adjacency& graph,
+                      const std::vector<Index>& variables, std::vector<Index>& number) {
+  ConnectedPart part;
   for (std::size_t k = 0; k < variables.size(); ++k) {
     number[variables[k]] = static_cast<Index>(k);
     part.dim.push_back(pattern.dim[variables[k]]);
@@ -37,7 +37,8 @@ Part part_of(const Pattern& pattern, const Adjacency& graph, const std::vector<I
 
 }  // namespace
 
-Order order_by_parts(const Pattern& pattern, const std::function<Order(Part&)>& order_part) {
+Order order_by_parts(const Pattern& pattern,
+                     const std::function<Order(ConnectedPart&)>& order_part) {
   const Index n = pattern.variables();
   const Adjacency graph = adjacency(pattern);
   std::vector<bool> seen(n, false);
@@ -51,7 +52,7 @@ Order order_by_parts(const Pattern& pattern, const std::function<Order(Part&)>& 
       order.push_back(j);
       continue;
     }
-    Part part = part_of(pattern, graph, variables, number);
+    ConnectedPart part = part_of(pattern, graph, variables, number);
     for (Index k : order_part(part)) order.push_back(variables[k]);
   }
   return order;

@@ -11,13 +11,14 @@
 namespace sg {
 
 // A connected part of the graph of A^T A, its variables renumbered 0..size-1 in their order.
-struct Part {
+struct ConnectedPart {
   Adjacency adjacency;
   std::vector<int> dim;
 };
 
 // Orders every part by itself, one after the other in order of their first variables. An ordering
 // costs what its parts cost together, so nothing is lost.
-Order order_by_parts(const Pattern& pattern, const std::function<Order(Part&)>& order_part);
+Order order_by_parts(const Pattern& pattern,
+                     const std::function<Order(ConnectedPart&)>& order_part);
 
 }  // namespace sg

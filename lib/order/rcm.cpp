@@ -7,7 +7,7 @@
 namespace sg::ordering {
 namespace {
 
-Order order_part(const Part& part) {
+Order order_part(const ConnectedPart& part) {
   const BoostGraph graph = boost_graph(part.adjacency);
   Order order(part.adjacency.size());
   boost::cuthill_mckee_ordering(graph, order.rbegin());

@@ -21,11 +21,11 @@ std::vector<Index> subtree_begin(const std::vector<Index>& parent) {
 
 // Children of k in a postorder, by way of their subtrees: the last is k - 1.
 template <class Function>
-void for_children(const Elimination& e, Index k, Function function) {
+void for_children(const OrderedElimination& e, Index k, Function function) {
   for (Index child = k - 1; child >= e.first[k]; child = e.first[child] - 1) function(child);
 }
 
-std::vector<Index> top_of_subtree(const Elimination& e, Index root, Index size) {
+std::vector<Index> top_of_subtree(const OrderedElimination& e, Index root, Index size) {
   std::vector<Index> inside;
   std::priority_queue<std::pair<std::int64_t, Index>> next;
   next.emplace(e.count[root], root);
@@ -40,7 +40,7 @@ std::vector<Index> top_of_subtree(const Elimination& e, Index root, Index size) 
 }
 
 // The first row whose first variable is at this position or later.
-Index first_row(const Elimination& e, Index position) {
+Index first_row(const OrderedElimination& e, Index position) {
   Index low = 0, high = e.rows.rows();
   while (low < high) {
     const Index middle = low + (high - low) / 2;
@@ -61,7 +61,7 @@ void end_row(std::vector<Index>& row, std::vector<std::vector<Index>>& rows) {
 }
 
 // The rows of R, in positions: those that R eliminates, and the separators of what hangs below it.
-std::vector<std::vector<Index>> region_rows(const Elimination& e,
+std::vector<std::vector<Index>> region_rows(const OrderedElimination& e,
                                             const std::vector<Index>& inside) {
   std::vector<std::vector<Index>> rows;
   std::vector<Index> row;
@@ -86,9 +86,9 @@ std::vector<std::vector<Index>> region_rows(const Elimination& e,
 
 }  // namespace
 
-Elimination elimination(const Pattern& pattern, const Order& order) {
+OrderedElimination elimination(const Pattern& pattern, const Order& order) {
   const std::vector<Index> post = postorder(elimination_tree(ordered(pattern, order)));
-  Elimination e;
+  OrderedElimination e;
   e.order.reserve(order.size());
   for (Index k : post) e.order.push_back(order[k]);
   e.rows = ordered(pattern, e.order);
@@ -101,7 +101,7 @@ Elimination elimination(const Pattern& pattern, const Order& order) {
   return e;
 }
 
-Region region(const Elimination& e, Index root, Index size) {
+Region region(const OrderedElimination& e, Index root, Index size) {
   Region result{root, top_of_subtree(e, root, size), {}, 0};
   const std::vector<std::vector<Index>> rows = region_rows(e, result.inside);
   std::vector<Index> positions = result.inside;
@@ -130,7 +130,7 @@ Wide region_ec(const Region& region, const Order& order) {
   return ec;
 }
 
-std::vector<Index> reordered_subtree(const Elimination& e, const Region& region,
+std::vector<Index> reordered_subtree(const OrderedElimination& e, const Region& region,
                                      const Order& order) {
   std::vector<Index> result;
   for (Index k = e.first[region.root]; k <= region.root; ++k) {

@@ -53,7 +53,7 @@ std::vector<SCOTCH_Num> numbers(const std::vector<Index>& values) {
   return {values.begin(), values.end()};
 }
 
-Order order_part(const Part& part, std::uint64_t seed) {
+Order order_part(const ConnectedPart& part, std::uint64_t seed) {
   const SCOTCH_Num n = part.adjacency.size();
   const auto begin = numbers(part.adjacency.begin);
   const auto neighbours = numbers(part.adjacency.neighbours);
@@ -77,7 +77,8 @@ Order order_part(const Part& part, std::uint64_t seed) {
 }  // namespace
 
 Order scotch(const Pattern& pattern, const OrderOptions& options) {
-  return order_by_parts(pattern, [&](const Part& part) { return order_part(part, options.seed); });
+  return order_by_parts(pattern,
+                        [&](const ConnectedPart& part) { return order_part(part, options.seed); });
 }
 
 }  // namespace sg::ordering

@@ -12,7 +12,7 @@
 namespace sg::ordering {
 namespace {
 
-Order order_part(const Part& part) {
+Order order_part(const ConnectedPart& part) {
   BoostGraph graph = boost_graph(part.adjacency);
   const std::size_t n = boost::num_vertices(graph);
   std::vector<boost::default_color_type> color(n, boost::white_color);

@@ -39,7 +39,7 @@ struct Layer {
 };
 
 struct Greedy {
-  std::vector<Link> link;  // by edge; u == v where it links nothing
+  std::vector<TreeEdge> link;  // by edge; u == v where it links nothing
   std::vector<Layer> layers;
   std::priority_queue<Worth> waiting;
   std::int64_t version = 0;
@@ -47,14 +47,14 @@ struct Greedy {
 };
 
 // Links of an edge of more than two vertices: from the first to each of the others.
-void links_of(const Graph& graph, const TreeNodes& nodes, Index e, std::vector<Link>& links) {
+void links_of(const Graph& graph, const TreeNodes& nodes, Index e, std::vector<TreeEdge>& links) {
   const auto ends = graph.edge(e);
   links.clear();
   for (std::size_t k = 1; k < ends.size(); ++k)
     links.push_back({nodes.node[ends[0]], nodes.node[ends[k]]});
 }
 
-Link candidate_link(const Graph& graph, const TreeNodes& nodes, Index e) {
+TreeEdge candidate_link(const Graph& graph, const TreeNodes& nodes, Index e) {
   const auto ends = graph.edge(e);
   if (ends.size() == 2) return {nodes.node[ends[0]], nodes.node[ends[1]]};
   throw error_at(graph, graph.edge_line[e],
@@ -65,11 +65,11 @@ Link candidate_link(const Graph& graph, const TreeNodes& nodes, Index e) {
 // The links of every edge, flat; those of candidates are one each.
 struct EdgeLinks {
   std::vector<std::size_t> begin{0};  // m + 1
-  std::vector<Link> links;
+  std::vector<TreeEdge> links;
 };
 EdgeLinks edge_links(const Graph& graph, const TreeNodes& nodes) {
   EdgeLinks result;
-  std::vector<Link> links;
+  std::vector<TreeEdge> links;
   for (Index e = 0; e < graph.edges(); ++e) {
     links_of(graph, nodes, e, links);
     result.links.insert(result.links.end(), links.begin(), links.end());

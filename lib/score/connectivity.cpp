@@ -15,7 +15,7 @@ namespace {
 // The nodes and links of one layer, nodes renumbered.
 struct LayerGraph {
   Index nodes = 0;
-  std::vector<Link> links;
+  std::vector<TreeEdge> links;
   std::vector<double> weight;
 };
 
@@ -28,7 +28,7 @@ LayerGraph layer_graph(const Graph& graph, const TreeNodes& nodes, const TreeLay
   for (Index e = 0; e < graph.edges(); ++e) {
     const auto ends = graph.edge(e);
     for (std::size_t k = 1; k < ends.size() && layer.weight[e] > 0; ++k) {
-      const Link link{nodes.node[ends[0]], nodes.node[ends[k]]};
+      const TreeEdge link{nodes.node[ends[0]], nodes.node[ends[k]]};
       if (link.u == link.v) continue;
       number[link.u] = number[link.v] = 0;
       result.links.push_back(link);
@@ -38,7 +38,7 @@ LayerGraph layer_graph(const Graph& graph, const TreeNodes& nodes, const TreeLay
   for (Index& n : number) {
     if (n == 0) n = result.nodes++;
   }
-  for (Link& link : result.links) link = {number[link.u], number[link.v]};
+  for (TreeEdge& link : result.links) link = {number[link.u], number[link.v]};
   return result;
 }
 

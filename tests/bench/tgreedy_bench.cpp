@@ -44,9 +44,9 @@ Choice choice(Graph graph, std::size_t one_in) {
   return {std::move(graph), std::move(candidates), count};
 }
 
-std::vector<Link> links_of(const Graph& graph) {
+std::vector<TreeEdge> links_of(const Graph& graph) {
   const TreeNodes nodes = tree_nodes(graph);
-  std::vector<Link> links;
+  std::vector<TreeEdge> links;
   for (Index e = 0; e < graph.edges(); ++e)
     links.push_back({nodes.node[graph.edge(e)[0]], nodes.node[graph.edge(e)[1]]});
   return links;
@@ -54,7 +54,7 @@ std::vector<Link> links_of(const Graph& graph) {
 
 // Seconds of one round after `accepted` choices: a solve for every candidate that is left.
 double naive_round(const Choice& choice, std::span<const Accepted> accepted) {
-  const std::vector<Link> links = links_of(choice.graph);
+  const std::vector<TreeEdge> links = links_of(choice.graph);
   std::vector<double> weight(links.size(), 1);
   for (Index e : choice.candidates) weight[e] = 0;
   for (const Accepted& step : accepted) weight[step.edge] = 1;

@@ -53,7 +53,7 @@ TEST_CASE("what a region gains by reordering, the whole elimination gains", "[be
     const Pattern pattern = odd_pattern(random, n);
     const Order start =
         trial % 2 == 0 ? shuffled(random, n) : sg::elimination_order("amd", pattern);
-    const sg::Elimination before = sg::elimination(pattern, start);
+    const sg::OrderedElimination before = sg::elimination(pattern, start);
     REQUIRE(before.ec == sg::elimination_complexity(pattern, start));
     REQUIRE(before.ec == sg::elimination_complexity(pattern, before.order));
 

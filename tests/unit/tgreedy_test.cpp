@@ -322,7 +322,7 @@ TEST_CASE("parts that candidates join come first, and nothing is lost", "[tgreed
 
 TEST_CASE("spanning trees: formulas that everybody knows", "[tgreedy]") {
   for (int n = 1; n <= 12; ++n) {
-    std::vector<Link> links;
+    std::vector<TreeEdge> links;
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) links.push_back({i, j});
     }
@@ -330,7 +330,7 @@ TEST_CASE("spanning trees: formulas that everybody knows", "[tgreedy]") {
     CHECK(spanning_trees(n, links, unit).log_trees ==
           Approx((n - 2) * std::log(n)).margin(1e-9));  // Cayley
     SpanningTrees grown = spanning_trees(n, links, none);
-    for (const Link& link : links) add_link(grown, link, 1);
+    for (const TreeEdge& link : links) add_link(grown, link, 1);
     CHECK(grown.log_trees == Approx((n - 2) * std::log(n)).margin(1e-9));
   }
   CHECK(spanning_trees(0, {}, {}).log_trees == 0);
@@ -340,7 +340,7 @@ TEST_CASE("spanning trees of weights that differ wildly", "[tgreedy]") {
   Random random(4);
   for (int trial = 0; trial < 100; ++trial) {
     const int n = dice(random, 2, 9);
-    std::vector<Link> links;
+    std::vector<TreeEdge> links;
     std::vector<double> weight;
     DenseGraph dense(n);
     const auto add = [&](int u, int v) {
