@@ -9,26 +9,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/graph/groups.h"
+
 namespace sg {
 namespace {
-
-// A pivot this small, next to the largest diagonal entry that a single factor gave it, is rounding.
-constexpr double vanishing = 1e-14;
-
-// Indices 0.. by key, those of key -1 left out; begin has keys + 1.
-void group(const std::vector<Index>& key, Index keys, std::vector<Index>& begin,
-           std::vector<Index>& items) {
-  begin.assign(keys + 1, 0);
-  for (Index k : key) {
-    if (k >= 0) ++begin[k + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  items.resize(begin.back());
-  std::vector<Index> at(begin.begin(), begin.end() - 1);
-  for (Index i = 0; i < static_cast<Index>(key.size()); ++i) {
-    if (key[i] >= 0) items[at[key[i]]++] = i;
-  }
-}
 
 // Appends a run, or lengthens the last one of `first..` where it goes on.
 void append(std::vector<Run>& runs, std::size_t first, Run run) {
@@ -71,8 +55,12 @@ void append_child_runs(const Pattern& pattern, const CliqueTree& tree, Index c,
 // Where rows and children go in their clique's front.
 void plan_runs(const Pattern& pattern, Elimination& e) {
   const CliqueTree& tree = e.tree;
-  group(tree.row_clique, tree.cliques(), e.rows_begin, e.rows);
-  group(tree.parent, tree.cliques(), e.children_begin, e.children);
+  Groups rows = grouped(tree.row_clique, tree.cliques());
+  e.rows_begin = std::move(rows.begin);
+  e.rows = std::move(rows.items);
+  Groups children = grouped(tree.parent, tree.cliques());
+  e.children_begin = std::move(children.begin);
+  e.children = std::move(children.items);
   std::vector<int> row_at(pattern.variables());
   for (Index c = 0; c < tree.cliques(); ++c) {
     int row = 0;

@@ -22,6 +22,9 @@
 
 namespace sg {
 
+// A pivot this small, next to the largest diagonal entry that a single factor gave it, is rounding.
+constexpr double vanishing = 1e-14;
+
 constexpr int lane = 8;
 constexpr int round_up(int rows) {
   return (rows + lane - 1) / lane * lane;

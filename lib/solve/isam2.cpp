@@ -10,8 +10,6 @@
 namespace sg {
 namespace {
 
-constexpr double vanishing = 1e-14;  // as in eliminate.cpp, of the largest diagonal entry
-
 // Beyond this share of all variables, the others come along: a new ordering pays.
 constexpr double reorder_all = 0.65;
 
