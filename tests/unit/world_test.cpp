@@ -219,6 +219,12 @@ TEST_CASE("the noise of worst is what its information claims", "[world]") {
   }
 }
 
+TEST_CASE("a world that no graph can hold is refused before it is made", "[world]") {
+  CHECK_THROWS_AS(sg::sine({.density = 1e9}), sg::Error);
+  CHECK_THROWS_AS(sg::sine({.density = 1e300}), sg::Error);
+  CHECK_THROWS_AS(sg::worst({.poses = 100'000, .landmarks = 100'000}), sg::Error);
+}
+
 TEST_CASE("the noise of the other worlds is what their information claims", "[world]") {
   check_noise(sg::manhattan({.poses = 1000}));
   check_noise(sg::city({.poses = 1000}));
