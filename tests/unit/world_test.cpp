@@ -220,9 +220,14 @@ TEST_CASE("the noise of worst is what its information claims", "[world]") {
 }
 
 TEST_CASE("a world that no graph can hold is refused before it is made", "[world]") {
-  CHECK_THROWS_AS(sg::sine({.density = 1e9}), sg::Error);
-  CHECK_THROWS_AS(sg::sine({.density = 1e300}), sg::Error);
-  CHECK_THROWS_AS(sg::worst({.poses = 100'000, .landmarks = 100'000}), sg::Error);
+  sg::Sine dense;
+  dense.density = 1e9;
+  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
+  dense.density = 1e300;
+  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
+  sg::Worst large;
+  large.poses = large.landmarks = 100'000;
+  CHECK_THROWS_AS(sg::worst(large), sg::Error);
 }
 
 TEST_CASE("the noise of the other worlds is what their information claims", "[world]") {
