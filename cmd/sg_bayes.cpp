@@ -74,18 +74,12 @@ const std::vector<sg::Column<Row>> columns{
      [](Row& row) { return sg::elimination_cost(row.frontal_dim(), row.total_dim()); }},
 };
 
-std::string joined(const sg::IdList& list) {
-  std::string text;
-  for (const auto id : list) text += (text.empty() ? "" : " ") + std::to_string(id);
-  return text;
-}
-
 void print_dot(NamedTree& named, sg::Output& output) {
   output.write("digraph bayes_tree {\n  node [shape=box, style=rounded];\n");
   for (sg::Index c = 0; c < named.tree.cliques(); ++c) {
     const Row row{named, c};
-    const std::string separator = joined(row.separator());
-    output.write("  c" + std::to_string(c) + " [label=\"" + joined(row.frontal()) +
+    const std::string separator = sg::text(row.separator());
+    output.write("  c" + std::to_string(c) + " [label=\"" + sg::text(row.frontal()) +
                  (separator.empty() ? "" : " : " + separator) + "\"];\n");
     if (row.parent())
       output.write("  c" + std::to_string(*row.parent()) + " -> c" + std::to_string(c) + ";\n");
