@@ -27,7 +27,7 @@ struct NamedTree {
 };
 
 // In elimination order.
-std::vector<sg::IdList> ids(const sg::Groups& positions, const sg::Graph& graph,
+std::vector<sg::IdList> ids(const sg::Lists<>& positions, const sg::Graph& graph,
                             const sg::GraphPattern& variables, const sg::Order& order) {
   std::vector<sg::IdList> result(positions.size());
   for (sg::Index c = 0; c < positions.size(); ++c) {

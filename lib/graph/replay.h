@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/graph/graph.h"
-#include "lib/graph/groups.h"
+#include "lib/graph/lists.h"
 
 namespace sg {
 
@@ -42,7 +42,7 @@ struct Replay {
 Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs = 1);
 
 // Vertices or edges by step: those of step k, ascending. Those of step -1 are left out.
-using ByStep = Groups;
+using ByStep = Lists<>;
 inline ByStep by_step(const std::vector<Index>& step, Index steps) {
   return grouped(step, steps);
 }

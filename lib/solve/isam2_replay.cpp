@@ -97,7 +97,7 @@ Isam2Report replay_step(Isam2Replay& replay, Index k) {
     }
   }
   for (Index e : edges) {
-    if (!problem.variables.pattern.row(e).empty()) rows.push_back(e);
+    if (!problem.variables.pattern.rows[e].empty()) rows.push_back(e);
   }
   const Isam2Report report = update(replay.isam, variables, rows);
   if (!report.undetermined.empty()) throw_singular(replay, k);
