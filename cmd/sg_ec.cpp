@@ -6,6 +6,7 @@
 #include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
+#include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 
 namespace {
@@ -86,8 +87,8 @@ void vertex_rows(sg::Table& table, const Subject& subject, const sg::Method& met
 void replay_rows(const sg::Graph& graph, const std::string& file, const Options& options,
                  const std::function<void(const Subject&)>& row) {
   const sg::Replay replay = sg::replay(graph, sg::pose_index(graph), options.min_obs);
-  const sg::ByStep vertices = sg::by_step(replay.vertex_step, replay.steps);
-  const sg::ByStep edges = sg::by_step(replay.edge_step, replay.steps);
+  const sg::Lists<> vertices = sg::grouped(replay.vertex_step, replay.steps);
+  const sg::Lists<> edges = sg::grouped(replay.edge_step, replay.steps);
   std::vector<bool> vertex_in(graph.vertices(), false);
   std::vector<bool> edge_in(graph.edges(), false);
   sg::Progress progress("sg-ec", "step", replay.steps);

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 

@@ -73,8 +73,8 @@ Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& option
   if (!graph.edges_only) result.file = file_values(problem);
   result.poses = pose_index(graph);
   result.steps = replay(graph, result.poses, min_obs);
-  result.vertices = by_step(result.steps.vertex_step, result.steps.steps);
-  result.edges = by_step(result.steps.edge_step, result.steps.steps);
+  result.vertices = grouped(result.steps.vertex_step, result.steps.steps);
+  result.edges = grouped(result.steps.edge_step, result.steps.steps);
   result.placed.assign(graph.vertices(), false);
   result.isam = make_isam2(problem, options);
   return result;

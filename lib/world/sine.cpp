@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {
@@ -50,8 +53,11 @@ std::vector<SE2> path_poses(const Sine& world) {
 std::vector<Eigen::Vector3d> scattered_landmarks(const Sine& world, double end) {
   const double from = -world.optics.range, to = end + world.optics.range;
   const double area = (to - from) * 2 * world.width;
+  const double expected = world.density * area;
+  if (world.landmarks == 0 && expected > std::numeric_limits<Index>::max())
+    throw computation_error("more landmarks than a graph can hold");
   const auto count =
-      world.landmarks > 0 ? world.landmarks : static_cast<Index>(std::lround(world.density * area));
+      world.landmarks > 0 ? world.landmarks : static_cast<Index>(std::lround(expected));
   Random random = random_stream(world.seed, Stream::structure);
   std::vector<Eigen::Vector3d> landmarks(count);
   for (auto& l : landmarks) {
@@ -73,9 +79,9 @@ void look(const Sine& world, LandmarkGraph& graph) {
       const Eigen::Vector3d& landmark = graph.landmarks[l];
       Eigen::Vector3d point;
       point << act(inverse(pose), landmark.head<2>()), landmark.z();
-      if (sees(world.optics, world.sensor, point)) graph.seen.push_back(l);
+      if (sees(world.optics, world.sensor, point)) graph.seen.items.push_back(l);
     }
-    end_observations(graph);
+    graph.seen.close();
   }
 }
 
