@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
-#include <set>
 
-#include "lib/elim/trees.h"
+#include "lib/graph/components.h"
 #include "lib/graph/lists.h"
 #include "lib/text/error.h"
+#include "lib/trees/spanning_trees.h"
 
 namespace sg {
 namespace {
@@ -53,18 +52,6 @@ TreeEdge candidate_link(const Graph& graph, const TreeNodes& nodes, Index e) {
   throw error_at(graph, graph.edge_line[e],
                  graph.type_of_edge(e).tag + " joins " + std::to_string(ends.size()) +
                      " vertices: only edges of two can be candidates for spanning trees");
-}
-
-// The links of every edge: from its first vertex to each of the others.
-Lists<TreeEdge> edge_links(const Graph& graph, const TreeNodes& nodes) {
-  Lists<TreeEdge> result;
-  for (Index e = 0; e < graph.edges(); ++e) {
-    const auto ends = graph.edge(e);
-    for (std::size_t k = 1; k < ends.size(); ++k)
-      result.items.push_back({nodes.node[ends[0]], nodes.node[ends[k]]});
-    result.close();
-  }
-  return result;
 }
 
 void require_weights(const Graph& graph, const std::vector<Index>& candidates,
@@ -158,7 +145,7 @@ Lists<> by_batch(const Graph& graph, const PoseIndex& poses, Index batch) {
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
                               std::size_t count, TreeWeights weights) {
   const TreeNodes nodes = tree_nodes(graph);
-  const Lists<TreeEdge> all = edge_links(graph, nodes);
+  const Lists<TreeEdge> all = tree_links(graph, nodes);
   std::vector<bool> present(graph.edges(), true);
   for (Index e : candidates) present[e] = false;
   Greedy greedy = start(graph, all, nodes, candidates, weights, present);
@@ -171,7 +158,7 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
                                      TreeWeights weights, Index batch) {
   const TreeNodes nodes = tree_nodes(graph);
-  const Lists<TreeEdge> all = edge_links(graph, nodes);
+  const Lists<TreeEdge> all = tree_links(graph, nodes);
   Greedy greedy =
       start(graph, all, nodes, candidates, weights, std::vector<bool>(graph.edges(), false));
   std::vector<bool> candidate(graph.edges(), false);
@@ -199,19 +186,10 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
 
 Index pose_parts(const Graph& graph, const PoseIndex& poses,
                  const std::vector<bool>& edge_removed) {
-  std::vector<Index> part(graph.vertices());
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&](Index v) {
-    while (part[v] != v) v = part[v] = part[part[v]];
-    return v;
-  };
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (edge_removed[e]) continue;
-    for (Index v : graph.edge(e)) part[root(v)] = root(graph.edge(e)[0]);
-  }
-  std::set<Index> roots;
-  for (Index v : poses.pose) roots.insert(root(v));
-  return static_cast<Index>(roots.size());
+  const Components parts = components(graph, edge_removed);
+  std::vector<bool> found(parts.count, false);
+  for (Index v : poses.pose) found[parts.of[v]] = true;
+  return static_cast<Index>(std::count(found.begin(), found.end(), true));
 }
 
 }  // namespace sg

@@ -10,9 +10,9 @@
 #include "formats/tum.h"
 #include "lib/factor/linearize.h"
 #include "lib/order/order.h"
-#include "lib/score/connectivity.h"
 #include "lib/score/dopt.h"
 #include "lib/score/trajectory.h"
+#include "lib/trees/connectivity.h"
 
 using namespace sg;
 using Eigen::MatrixXd;

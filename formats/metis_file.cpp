@@ -1,4 +1,4 @@
-#include "formats/metis.h"
+#include "formats/metis_file.h"
 
 #include "lib/graph/pattern.h"
 
