@@ -9,6 +9,7 @@
 #include "formats/formats.h"
 #include "formats/tum.h"
 #include "lib/factor/linearize.h"
+#include "lib/graph/summary.h"
 #include "lib/order/order.h"
 #include "lib/score/dopt.h"
 #include "lib/score/trajectory.h"
