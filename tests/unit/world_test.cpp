@@ -219,6 +219,17 @@ TEST_CASE("the noise of worst is what its information claims", "[world]") {
   }
 }
 
+TEST_CASE("a world that no graph can hold is refused before it is made", "[world]") {
+  sg::Sine dense;
+  dense.density = 1e9;
+  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
+  dense.density = 1e300;
+  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
+  sg::Worst large;
+  large.poses = large.landmarks = 100'000;
+  CHECK_THROWS_AS(sg::worst(large), sg::Error);
+}
+
 TEST_CASE("the noise of the other worlds is what their information claims", "[world]") {
   check_noise(sg::manhattan({.poses = 1000}));
   check_noise(sg::city({.poses = 1000}));
@@ -241,7 +252,7 @@ TEST_CASE("sine lies in the regime of the paper", "[world]") {
   CHECK(landmarks == Approx(440).epsilon(0.08));
   CHECK(observations / 400 == Approx(50).epsilon(0.1));
   std::vector<int> seen(landmarks);
-  for (const Index l : world.seen) ++seen[l];
+  for (const Index l : world.seen.items) ++seen[l];
   CHECK(*std::min_element(seen.begin(), seen.end()) >= 3);
 }
 
