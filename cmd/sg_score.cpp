@@ -7,12 +7,8 @@
 #include "formats/tum.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
-<<<<<<< HEAD
-#include "lib/graph/summary.h"
-=======
 #include "lib/geometry/numbers.h"
-#include "lib/score/connectivity.h"
->>>>>>> main
+#include "lib/graph/summary.h"
 #include "lib/score/dopt.h"
 #include "lib/score/trajectory.h"
 #include "lib/trees/connectivity.h"

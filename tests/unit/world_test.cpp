@@ -285,13 +285,6 @@ TEST_CASE("sine keeps what a sensor sees, and its path its step", "[world]") {
   CHECK(observations == graph.seen.items.size());
 }
 
-TEST_CASE("sine refuses more landmarks than a graph can hold", "[world]") {
-  sg::Sine world;
-  world.poses = 2;
-  world.density = 1e12;
-  CHECK_THROWS_AS(sg::sine(world), sg::Error);
-}
-
 TEST_CASE("landmarks that stay are triangulated", "[world]") {
   sg::LandmarkGraph graph;
   graph.sensor = sg::Sensor::bearing;
