@@ -84,7 +84,8 @@ TEST_CASE("a system is solved, and one without memory is an error at every step"
         Triplets lower = second_difference(n);
         const CholmodSparse matrix = sparse_matrix(n, lower, session);
         const CholmodFactor factor = analyze(*matrix, ordering, session);
-        REQUIRE(factorize(*matrix, *factor, session));
+        const bool definite = factorize(*matrix, *factor, session);
+        CHECK(definite);
         std::vector<double> b(n, 0);
         b.back() = n + 1;
         const CholmodDense x = solve(*factor, b, session);
