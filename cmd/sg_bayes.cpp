@@ -13,13 +13,13 @@ struct NamedTree {
   sg::Order order;
   sg::BayesTree tree;
   std::vector<sg::Index> depth;
-  std::optional<sg::Groups> frontals_ = {};
-  std::optional<sg::Groups> separators_ = {};
+  std::optional<sg::Lists<>> frontals_ = {};
+  std::optional<sg::Lists<>> separators_ = {};
 
-  const sg::Groups& frontals() {
+  const sg::Lists<>& frontals() {
     return sg::once(frontals_, [&] { return sg::clique_frontals(tree); });
   }
-  const sg::Groups& separators() {
+  const sg::Lists<>& separators() {
     return sg::once(separators_, [&] {
       return sg::clique_separators(sg::ordered(variables.pattern, order), tree);
     });
