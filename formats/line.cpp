@@ -95,7 +95,7 @@ void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink)
 void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look) {
   for_lines(text, [&](std::string_view line) {
     const auto tag = next_word(line);
-    const bool skip = tag.empty() || tag.front() == '#' || tag == "FIX";
+    const bool skip = tag.empty() || tag.front() == '#' || tag == fix_tag;
     return skip || !look(tag);
   });
 }

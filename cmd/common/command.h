@@ -33,7 +33,7 @@ int run_status(Command& command, int argc, char** argv, const std::function<int(
 // "sg-ec: text" on standard error, unless -q.
 void warn(const Command& command, const std::string& text);
 
-// FILE, --from, --vertex, --edge.
+// FILE, --from, --vertex, --edge, --params.
 struct Input {
   std::string path = "-";
   ReadOptions options;

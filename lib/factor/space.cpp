@@ -9,16 +9,6 @@
 namespace sg {
 namespace {
 
-struct Row {
-  std::string_view tag;
-  Space space;
-};
-constexpr std::array rows{
-    Row{"VERTEX_SE2", Space::se2},           Row{"VERTEX_SE3:QUAT", Space::se3},
-    Row{"VERTEX_SE3:EXPMAP", Space::expmap}, Row{"VERTEX_XY", Space::xy},
-    Row{"VERTEX_TRACKXYZ", Space::xyz},      Row{"VERTEX_XYZ", Space::xyz},
-};
-
 SE3 normalized(SE3 x) {
   x.q.normalize();
   return x;
@@ -41,18 +31,6 @@ SE3 expmap_step(const double* step) {
 
 }  // namespace
 
-std::optional<Space> find_space(std::string_view vertex_tag) {
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.tag == vertex_tag; });
-  if (row == rows.end()) return std::nullopt;
-  return row->space;
-}
-
-std::string_view name(Space space) {
-  return std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.space == space; })
-      ->tag;
-}
-
 void retract(Space space, const double* step, double* x) {
   switch (space) {
     case Space::se2:
@@ -69,6 +47,9 @@ void retract(Space space, const double* step, double* x) {
     case Space::xy:
     case Space::xyz:
       for (int k = 0; k < space_dim(space); ++k) x[k] += step[k];
+      break;
+    default:
+      break;  // no steps
   }
 }
 

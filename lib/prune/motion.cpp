@@ -140,19 +140,17 @@ void append_upper(std::string& text, const Matrix& m) {
 
 }  // namespace
 
-bool is_motion(const EdgeType& type) {
-  return type.tag == "EDGE_SE2" || type.tag == "EDGE_SE3:QUAT" || type.tag == "EDGE_SE3:EXPMAP";
+bool is_motion(EdgeTag type) {
+  return type == EdgeTag::se2 || type == EdgeTag::se3 || type == EdgeTag::expmap;
 }
 
 std::optional<Motion> motion(const Graph& graph, Index e) {
-  const std::string& tag = graph.type_of_edge(e).tag;
-  if (!is_motion(graph.type_of_edge(e))) return std::nullopt;
+  const EdgeTag type = graph.edge_tag(e);
+  if (!is_motion(type)) return std::nullopt;
   thread_local std::vector<double> n;
   edge_numbers(graph, e, n);
-  const std::size_t needed = tag == "EDGE_SE2" ? 9 : 28;
-  if (n.size() < needed) throw error_at(graph, graph.edge_line[e], tag + " lacks numbers");
-  if (tag == "EDGE_SE2") return UncertainSE2{{n[0], n[1], n[2]}, symmetric<3>(n.data() + 3)};
-  if (tag == "EDGE_SE3:QUAT") return UncertainSE3{se3(n), symmetric<6>(n.data() + 7)};
+  if (type == EdgeTag::se2) return UncertainSE2{{n[0], n[1], n[2]}, symmetric<3>(n.data() + 3)};
+  if (type == EdgeTag::se3) return UncertainSE3{se3(n), symmetric<6>(n.data() + 7)};
   return ExpmapMotion{se3(n), symmetric<6>(n.data() + 7)};
 }
 
@@ -192,20 +190,22 @@ double angle(const Motion& motion) {
   return log_so3(std::get<ExpmapMotion>(motion).mean.q).norm();
 }
 
+EdgeTag type_of(const Motion& motion) {
+  return std::array{EdgeTag::se2, EdgeTag::se3, EdgeTag::expmap}[motion.index()];
+}
+
 std::string edge_text(const Motion& motion, Id first, Id second) {
   const std::string ids = ' ' + std::to_string(first) + ' ' + std::to_string(second);
-  std::string text;
+  std::string text(name(type_of(motion)));
+  text += ids;
   if (const auto* a = std::get_if<UncertainSE2>(&motion)) {
-    text = "EDGE_SE2" + ids;
     for (double value : {a->mean.x, a->mean.y, a->mean.theta}) append(text, value);
     append_upper(text, a->information);
   } else if (const auto* b = std::get_if<UncertainSE3>(&motion)) {
-    text = "EDGE_SE3:QUAT" + ids;
     append(text, b->mean);
     append_upper(text, b->information);
   } else {
     const auto& c = std::get<ExpmapMotion>(motion);
-    text = "EDGE_SE3:EXPMAP" + ids;
     append(text, c.mean);
     append_upper(text, c.information);
   }
