@@ -98,8 +98,7 @@ void parse_vertex(Parser& parser, TypeIndex type_index, Offset at, std::string_v
 // The ids of an edge line, onto parser.edge_ids; returns how many numbers have to follow.
 std::int64_t parse_edge_ids(Parser& parser, const EdgeType& type, std::string_view& rest) {
   if (!type.counted) {
-    for (int k = 0; k < type.arity; ++k)
-      parser.edge_ids.push_back(read_id(rest, "a vertex id"));
+    for (int k = 0; k < type.arity; ++k) parser.edge_ids.push_back(read_id(rest, "a vertex id"));
     return type.numbers;
   }
   parser.edge_ids.push_back(read_id(rest, "a vertex id"));
@@ -162,7 +161,8 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
     parser.last_tag = tag;
   }
   if (!parser.last_meaning)
-    throw BadLine{"unknown tag " + quoted(tag) + " (--vertex, --edge and --params teach a new one)"};
+    throw BadLine{"unknown tag " + quoted(tag) +
+                  " (--vertex, --edge and --params teach a new one)"};
   const TypeIndex type = parser.last_meaning->type;
   switch (parser.last_meaning->kind) {
     case LineKind::vertex:

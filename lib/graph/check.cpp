@@ -89,8 +89,7 @@ void check_edges(const Graph& graph, Findings& findings) {
       continue;
     }
     const EdgeType& type = graph.type_of_edge(e);
-    if (has_quaternion(type.space))
-      check_quaternion(graph.edge_line[e], numbers, findings);
+    if (has_quaternion(type.space)) check_quaternion(graph.edge_line[e], numbers, findings);
     check_information(graph, e, numbers, findings);
   }
 }
@@ -114,8 +113,7 @@ void check_params(const Graph& graph, Findings& findings) {
   Numbers numbers;
   for (const Param& param : graph.params) {
     param_numbers(graph, param, numbers);
-    const bool pose =
-        param.type != ParamTag::unknown && has_quaternion(row(param.type).frame);
+    const bool pose = param.type != ParamTag::unknown && has_quaternion(row(param.type).frame);
     if (!finite(numbers)) {
       findings.push_back({param.line, true, "a number is infinite or not a number"});
     } else if (pose && numbers.size() >= 7) {

@@ -55,7 +55,8 @@ std::array<TreeLayer, 2> information_layers(const Graph& graph) {
     const SpaceRow& space = facts(type.space);
     edge_numbers(graph, e, numbers);
     layers[0].weight[e] = mean_information(type, space.translation, numbers);
-    layers[1].weight[e] = mean_information(type, space.rotation, numbers) * space.radian * space.radian;
+    layers[1].weight[e] =
+        mean_information(type, space.rotation, numbers) * space.radian * space.radian;
     layers[0].multiplicity = std::max<double>(layers[0].multiplicity, space.translation.size);
     layers[1].multiplicity = std::max<double>(layers[1].multiplicity, space.rotation.size);
   }

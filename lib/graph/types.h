@@ -51,7 +51,7 @@ struct SpaceRow {
 };
 
 // A step is added number by number where nothing else is said.
-constexpr std::array space_rows{
+inline constexpr std::array space_rows{
     SpaceRow{Space::none, 0, -1},
     // x y theta
     SpaceRow{Space::se2, 3, 3, 2, {0, 2}, {2, 1}},
@@ -116,7 +116,7 @@ struct VertexRow {
   Role role;
 };
 
-constexpr std::array vertex_rows{
+inline constexpr std::array vertex_rows{
     VertexRow{VertexTag::se2, "VERTEX_SE2", Space::se2, Role::pose},
     VertexRow{VertexTag::se3, "VERTEX_SE3:QUAT", Space::se3, Role::pose},
     VertexRow{VertexTag::expmap, "VERTEX_SE3:EXPMAP", Space::expmap, Role::pose},
@@ -154,7 +154,7 @@ struct ParamRow {
   ParamTag also;  // what it can stand for, too, by its first numbers; itself: nothing else
 };
 
-constexpr std::array param_rows{
+inline constexpr std::array param_rows{
     ParamRow{ParamTag::se2_offset, "PARAMS_SE2OFFSET", 3, Space::se2, ParamTag::se2_offset},
     ParamRow{ParamTag::se3_offset, "PARAMS_SE3OFFSET", 7, Space::se3, ParamTag::se3_offset},
     // ... fx fy cx cy
@@ -224,7 +224,7 @@ enum class EdgeTag : std::uint8_t {
 // How the upper triangle of an information matrix stands in a line: row by row, or 11 12 22 33 13 23.
 enum class Triangle : std::uint8_t { rows, toro };
 // The k-th number of TORO's is this one of the rows, which are 11 12 13 22 23 33.
-constexpr std::array<int, 6> toro_triangle{0, 1, 3, 5, 2, 4};
+inline constexpr std::array<int, 6> toro_triangle{0, 1, 3, 5, 2, 4};
 
 // What an edge measures: `numbers`, the triangle of the information of its error, and `extra` more.
 struct Measure {
@@ -278,7 +278,7 @@ constexpr auto OFFSET2 = ParamTag::se2_offset, OFFSET3 = ParamTag::se3_offset,
 using enum Space;
 using Tag = EdgeTag;
 
-constexpr std::array edges{
+inline constexpr std::array edges{
     EdgeRow{Tag::se2, "EDGE_SE2", of(se2), {SE2, SE2}},
     EdgeRow{Tag::se2_offset, "EDGE_SE2_OFFSET", of(se2), {SE2, SE2}, {OFFSET2, OFFSET2}},
     EdgeRow{Tag::se2_xy, "EDGE_SE2_XY", of(xy), {SE2, XY}},
@@ -349,19 +349,19 @@ constexpr std::array edges{
 
 }  // namespace rows
 
-constexpr const auto& edge_rows = rows::edges;
+inline constexpr const auto& edge_rows = rows::edges;
 
 // ---- Other lines, and other names.
 
-constexpr std::string_view fix_tag = "FIX";
-constexpr std::array<std::string_view, 3> data_tags{"ROBOTLASER1", "VERTEX_TAG", "VERTEX_ELLIPSE"};
+inline constexpr std::string_view fix_tag = "FIX";
+inline constexpr std::array<std::string_view, 3> data_tags{"ROBOTLASER1", "VERTEX_TAG", "VERTEX_ELLIPSE"};
 
 // A line of an alias keeps its own text, and means what a line of the other tag means.
 struct Alias {
   std::string_view tag;
   std::string_view means;
 };
-constexpr std::array aliases{Alias{"EDGE_SE3", "EDGE_SE3:QUAT"}};
+inline constexpr std::array aliases{Alias{"EDGE_SE3", "EDGE_SE3:QUAT"}};
 
 // ---- Rows and tags by enumerator.
 
