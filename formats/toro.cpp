@@ -3,26 +3,26 @@
 #include <array>
 
 #include "formats/euler.h"
-#include "formats/line.h"
+#include "formats/translate.h"
 
 namespace sg {
 namespace {
 
 void append_ids(std::string& out, std::string_view& rest, int count) {
-  for (int k = 0; k < count; ++k) append_word(out, std::to_string(read_id(rest, "a vertex id")));
+  for (int k = 0; k < count; ++k) append_number(out, read_id(rest, "a vertex id"));
 }
 
 void translate_vertex2(std::string_view rest, std::string& out) {
   out += name(VertexTag::se2);
   append_ids(out, rest, 1);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
   expect_end(rest);
 }
 
 void translate_edge2(std::string_view rest, std::string& out) {
   out += name(EdgeTag::se2);
   append_ids(out, rest, 2);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
   std::array<std::string_view, 6> w;  // row by row
   for (const int k : toro_triangle) w[k] = read_number_text(rest);
   expect_end(rest);
@@ -40,9 +40,9 @@ void translate_edge3(std::string_view rest, std::string& out) {
   out += name(EdgeTag::se3);
   append_ids(out, rest, 2);
   translate_euler_pose(rest, out);
-  const auto upper = read_triangle<6>(rest);
+  const Matrix6d information = read_symmetric<6>(rest);
   expect_end(rest);
-  append_triangle<6>(out, to_quaternion_information(upper));
+  append_triangle<6>(out, to_quaternion_information(information));
 }
 
 bool holds_vertex(const Graph& graph, Index v) {
@@ -60,13 +60,13 @@ bool holds_edge(const Graph& graph, Index e) {
 void write_se2(std::string_view rest, std::string& out) {
   out = "VERTEX2";
   append_ids(out, rest, 1);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
 }
 
 void write_edge_se2(std::string_view rest, std::string& out) {
   out = "EDGE2";
   append_ids(out, rest, 2);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
   std::array<std::string_view, 6> w;  // row by row
   for (auto& word : w) word = read_number_text(rest);
   for (const int k : toro_triangle) append_word(out, w[k]);
@@ -82,7 +82,7 @@ void write_edge_se3(std::string_view rest, std::string& out) {
   out = "EDGE3";
   append_ids(out, rest, 2);
   translate_quaternion_pose(rest, out);
-  append_triangle<6>(out, to_euler_information(read_triangle<6>(rest)));
+  append_triangle<6>(out, to_euler_information(read_symmetric<6>(rest)));
 }
 
 void write_vertex(VertexTag type, std::string_view line, std::string_view rest, std::string& out) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
+#include "lib/geometry/triangle.h"
 #include "lib/graph/components.h"
 
 namespace sg {
@@ -34,16 +34,6 @@ void check_quaternion(Offset line, const Numbers& numbers, Findings& findings) {
   }
 }
 
-// The matrix with this upper triangle, row by row.
-Eigen::MatrixXd symmetric(std::span<const double> upper, Index dim) {
-  Eigen::MatrixXd matrix(dim, dim);
-  std::size_t k = 0;
-  for (Index i = 0; i < dim; ++i) {
-    for (Index j = i; j < dim; ++j) matrix(i, j) = matrix(j, i) = upper[k++];
-  }
-  return matrix;
-}
-
 bool semidefinite(const Eigen::MatrixXd& matrix) {
   if (Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success) return true;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
@@ -59,10 +49,10 @@ void check_information(const Graph& graph, Index e, const Numbers& numbers, Find
   const Index measurement = repeats * type.measurement;
   const std::int64_t dim = type.counted ? measurement : type.dim;
   const auto given = static_cast<std::int64_t>(numbers.size()) - measurement;
-  if (dim == 0 || given < dim * (dim + 1) / 2) return;
+  if (dim == 0 || given < triangle_size(dim)) return;
   const double* const w = numbers.data() + measurement;
-  const auto size = static_cast<std::size_t>(dim * (dim + 1) / 2);
-  if (!semidefinite(symmetric({w, size}, static_cast<Index>(dim)))) {
+  const auto size = static_cast<std::size_t>(triangle_size(dim));
+  if (!semidefinite(symmetric<Eigen::MatrixXd>({w, size}, dim))) {
     findings.push_back({graph.edge_line[e], true,
                         "the information matrix of " + type.tag + " is not positive semidefinite"});
   }

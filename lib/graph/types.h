@@ -354,7 +354,8 @@ inline constexpr const auto& edge_rows = rows::edges;
 // ---- Other lines, and other names.
 
 inline constexpr std::string_view fix_tag = "FIX";
-inline constexpr std::array<std::string_view, 3> data_tags{"ROBOTLASER1", "VERTEX_TAG", "VERTEX_ELLIPSE"};
+inline constexpr std::array<std::string_view, 3> data_tags{"ROBOTLASER1", "VERTEX_TAG",
+                                                           "VERTEX_ELLIPSE"};
 
 // A line of an alias keeps its own text, and means what a line of the other tag means.
 struct Alias {

@@ -34,8 +34,6 @@ bool is_motion(EdgeTag type);
 // The measurement of edge e, if it is of such a type.
 std::optional<Motion> motion(const Graph& graph, Index e);
 
-EdgeTag type_of(const Motion& motion);
-
 // Of two motions of one type, the first then the second; first-order propagation of covariance.
 Motion compose(const Motion& first, const Motion& second);
 Motion inverse(const Motion& motion);

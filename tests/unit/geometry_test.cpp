@@ -1,11 +1,14 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "lib/geometry/information.h"
+#include "lib/geometry/numbers.h"
 #include "lib/geometry/se2.h"
 #include "lib/geometry/se3.h"
+#include "lib/geometry/triangle.h"
 
 using namespace sg;
 using Eigen::Matrix3d;
@@ -14,7 +17,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-std::mt19937 random_bits(7);
+std::mt19937 random_bits;  // every case seeds it
 
 double uniform(double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random_bits);
@@ -149,6 +152,7 @@ TEST_CASE("angles are wrapped to (-pi, pi]", "[geometry]") {
 }
 
 TEST_CASE("SE(2) follows its matrices", "[geometry]") {
+  random_bits.seed(11);
   for (int trial = 0; trial < 50; ++trial) {
     const SE2 a = random_se2(), b = random_se2();
     check_group(a, b);
@@ -162,6 +166,7 @@ TEST_CASE("SE(2) follows its matrices", "[geometry]") {
 }
 
 TEST_CASE("SE(3) follows its matrices", "[geometry]") {
+  random_bits.seed(12);
   for (int trial = 0; trial < 50; ++trial) {
     const SE3 a = random_se3(), b = random_se3();
     check_group(a, b);
@@ -175,6 +180,7 @@ TEST_CASE("SE(3) follows its matrices", "[geometry]") {
 }
 
 TEST_CASE("the inverse left Jacobian is the derivative of log", "[geometry]") {
+  random_bits.seed(13);
   for (double size : {1.2, 0.1, 4e-3}) {
     const Vector6d u = random_vector<6>(size);
     const Matrix6d J = inverse_left_jacobian(u);
@@ -188,19 +194,86 @@ TEST_CASE("the inverse left Jacobian is the derivative of log", "[geometry]") {
 }
 
 TEST_CASE("roll, pitch and yaw go there and back", "[geometry]") {
+  random_bits.seed(14);
   for (int trial = 0; trial < 50; ++trial) {
     const Vector3d angles(uniform(-pi, pi), uniform(-pi / 2, pi / 2), uniform(-pi, pi));
     const auto q = from_roll_pitch_yaw(angles[0], angles[1], angles[2]);
     CHECK(roll_pitch_yaw(q).isApprox(angles, 1e-9));
   }
-  for (double pitch : {pi / 2, -pi / 2}) {
+  for (double pitch : {pi / 2, pi / 2 - 1e-9, -pi / 2, -pi / 2 + 1e-12}) {
     const auto q = from_roll_pitch_yaw(0.3, pitch, 0.5);
     const Vector3d angles = roll_pitch_yaw(q);
     CHECK(from_roll_pitch_yaw(angles[0], angles[1], angles[2]).angularDistance(q) < 1e-7);
   }
 }
 
+TEST_CASE("roll, pitch and yaw turn about the fixed axes x, y and z in this order", "[geometry]") {
+  const Matrix3d turned = from_roll_pitch_yaw(pi / 2, 0, pi / 2).toRotationMatrix();
+  CHECK((turned * Vector3d::UnitY() - Vector3d::UnitZ()).norm() < 1e-15);
+  CHECK((turned * Vector3d::UnitX() - Vector3d::UnitY()).norm() < 1e-15);
+  const Matrix3d pitched = from_roll_pitch_yaw(0, pi / 2, 0).toRotationMatrix();
+  CHECK((pitched * Vector3d::UnitX() + Vector3d::UnitZ()).norm() < 1e-15);
+}
+
+TEST_CASE("compact coordinates go there and back", "[geometry]") {
+  random_bits.seed(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    SE3 a = random_se3();
+    const Vector6d v = compact(a);
+    CHECK(v.head<3>() == a.t);
+    CHECK(matrix(from_compact(v)).isApprox(matrix(a), 1e-12));
+    a.q.coeffs() *= -1;  // the same rotation
+    CHECK(compact(a) == v);
+  }
+  Vector6d long_one;
+  long_one << 1, 2, 3, 0, 0, 4;
+  const SE3 half_turn = from_compact(long_one);
+  CHECK(half_turn.q.coeffs() == Eigen::Vector4d(0, 0, 1, 0));
+  CHECK(half_turn.t == Vector3d(1, 2, 3));
+}
+
+TEST_CASE("swapping puts the rotation first, and back", "[geometry]") {
+  random_bits.seed(6);
+  const Vector6d v = random_vector<6>();
+  const Matrix6d m = random_information<6>();
+  CHECK(swapped(v).head<3>() == v.tail<3>());
+  CHECK(swapped(swapped(v)) == v);
+  CHECK(swapped(swapped(m)) == m);
+  CHECK(Vector6d(swapped(m) * swapped(v)).isApprox(swapped(Vector6d(m * v)), 1e-14));
+}
+
+TEST_CASE("motions and their numbers", "[geometry]") {
+  const double numbers[] = {1, 2, 3, 0.1, 0.2, 0.3, 0.4};
+  const SE3 a = se3(numbers);
+  CHECK(a.t == Vector3d(1, 2, 3));
+  CHECK(a.q.w() == 0.4);
+  CHECK(a.q.vec() == Vector3d(0.1, 0.2, 0.3));
+  CHECK(std::ranges::equal(numbers_of(a), numbers));
+  CHECK(normalized(a).q.isApprox(a.q.normalized()));
+  CHECK(normalized(a).t == a.t);
+  double back[7] = {};
+  set_se3(a, back);
+  CHECK(std::ranges::equal(back, numbers));
+  set_se2(se2(numbers + 1), back);
+  CHECK(std::vector(back, back + 3) == std::vector{2.0, 3.0, 0.1});
+}
+
+TEST_CASE("a triangle is the upper one, row by row", "[geometry]") {
+  std::array<double, 6> triangle{};
+  std::iota(triangle.begin(), triangle.end(), 1.0);
+  const Matrix3d expected{{1, 2, 3}, {2, 4, 5}, {3, 5, 6}};
+  CHECK(symmetric<Matrix3d>(triangle) == expected);
+  CHECK(symmetric<Eigen::MatrixXd>(triangle, 3) == expected);
+  CHECK(symmetric<Eigen::MatrixXd>(triangle, 2) == Eigen::Matrix2d{{1, 2}, {2, 3}});
+  CHECK(upper_triangle(expected) == triangle);
+  CHECK(triangle_size(6) == 21);
+  CHECK_FALSE(is_diagonal(triangle, 3));
+  CHECK(is_diagonal(std::array{1.0, 0.0, 0.0, 2.0, 0.0, 3.0}, 3));
+  CHECK_FALSE(is_diagonal(std::array{1.0, 0.0, 0.0, 2.0, 1e-300, 3.0}, 3));
+}
+
 TEST_CASE("uncertainty propagates to first order", "[geometry]") {
+  random_bits.seed(15);
   for (int trial = 0; trial < 20; ++trial) {
     check_propagation<3>(UncertainSE2{random_se2(), random_information<3>()},
                          UncertainSE2{random_se2(), random_information<3>()});
