@@ -9,6 +9,7 @@
 #include "lib/geometry/numbers.h"
 #include "lib/geometry/triangle.h"
 #include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {
