@@ -14,25 +14,15 @@
 
 namespace sg {
 
-// ---- Spaces: what an estimate or a measurement is, and how a line writes it.
+// ---- Spaces: what an estimate or a measurement is, and how a line writes it. `none` is not known,
+// or has no place at all: pixels, a bearing.
 
+// clang-format off
 enum class Space : std::uint8_t {
-  none,  // not known, or nothing that has a place: pixels, a bearing
-  se2,
-  se3,
-  expmap,
-  camera,
-  euler,
-  sim3,
-  xy,
-  xyz,
-  line2d,
-  segment2d,
-  line3d,
-  plane,
-  intrinsics,
-  wheels,
+  none, se2, se3, expmap, camera, euler, sim3, xy, xyz, line2d, segment2d, line3d, plane,
+  intrinsics, wheels,
 };
+// clang-format on
 
 // Coordinates first .. first + size - 1 of a vector; size 0: there are none.
 struct Axes {
@@ -90,24 +80,12 @@ constexpr bool has_quaternion(Space space) {
 
 enum class Role : std::uint8_t { pose, landmark, other };
 
+// clang-format off
 enum class VertexTag : std::uint8_t {
-  se2,
-  se3,
-  expmap,
-  cam,
-  sim3,
-  toro3,
-  toro2,
-  xy,
-  trackxyz,
-  xyz,
-  line2d,
-  segment2d,
-  line3d,
-  plane,
-  intrinsics,
-  wheels,
+  se2, se3, expmap, cam, sim3, toro3, toro2, xy, trackxyz, xyz, line2d, segment2d, line3d, plane,
+  intrinsics, wheels,
 };
+// clang-format on
 
 struct VertexRow {
   VertexTag type;
@@ -167,59 +145,19 @@ inline constexpr std::array param_rows{
 
 // ---- Edges.
 
+// clang-format off
 enum class EdgeTag : std::uint8_t {
-  se2,
-  se2_offset,
-  se2_xy,
-  bearing_se2_xy,
-  se2_pointxy_offset,
-  se2_line2d,
-  se2_segment2d,
-  se2_segment2d_line,
-  se2_segment2d_pointline,
-  pointxy,
-  line2d,
-  line2d_pointxy,
-  prior_se2,
-  prior_se2_xy,
-  prior_xy,
-  se2_calib,
-  se2_xy_calib,
-  se2_twopointsxy,
-  se2_lotsofxy,
-  se2_odom_differential_calib,
-  se3,
-  se3_offset,
-  se3_trackxyz,
-  project_disparity,
-  project_depth,
-  se3_prior,
-  se3_xyz_prior,
-  pointxyz,
-  pointxyz_prior,
-  se3_line3d,
-  plane,
-  se3_plane_calib,
-  se3_calib,
-  se3_lotsof_xyz,
-  gicp,
-  toro3,
-  toro2,
-  expmap,
-  project_xyz2uv,
-  project_xyz2uvu,
-  se3_project_xyz,
-  stereo_se3_project_xyz,
-  se3_project_xyz_onlypose,
-  stereo_se3_project_xyz_onlypose,
-  project_p2mc,
-  project_p2sc,
-  cam,
-  scale,
-  sim3,
-  project_sim3_xyz,
+  se2, se2_offset, se2_xy, bearing_se2_xy, se2_pointxy_offset, se2_line2d, se2_segment2d,
+  se2_segment2d_line, se2_segment2d_pointline, pointxy, line2d, line2d_pointxy, prior_se2,
+  prior_se2_xy, prior_xy, se2_calib, se2_xy_calib, se2_twopointsxy, se2_lotsofxy,
+  se2_odom_differential_calib, se3, se3_offset, se3_trackxyz, project_disparity, project_depth,
+  se3_prior, se3_xyz_prior, pointxyz, pointxyz_prior, se3_line3d, plane, se3_plane_calib,
+  se3_calib, se3_lotsof_xyz, gicp, toro3, toro2, expmap, project_xyz2uv, project_xyz2uvu,
+  se3_project_xyz, stereo_se3_project_xyz, se3_project_xyz_onlypose,
+  stereo_se3_project_xyz_onlypose, project_p2mc, project_p2sc, cam, scale, sim3, project_sim3_xyz,
   project_inverse_sim3_xyz,
 };
+// clang-format on
 
 // How the upper triangle of an information matrix stands in a line: row by row, or 11 12 22 33 13 23.
 enum class Triangle : std::uint8_t { rows, toro };
