@@ -1,7 +1,7 @@
 #include "lib/elim/etree.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cassert>
 #include <stdexcept>
 
 namespace sg {
@@ -20,6 +20,15 @@ std::vector<Index> positions(const Order& order, Index n) {
   return position;
 }
 
+// Whether every vertex comes before its parent.
+[[maybe_unused]] bool is_forest(const std::vector<Index>& parent) {
+  const auto n = static_cast<Index>(parent.size());
+  for (Index k = 0; k < n; ++k) {
+    if (parent[k] != -1 && (parent[k] <= k || parent[k] >= n)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 OrderedPattern ordered(const Pattern& pattern, const Order& order) {
@@ -29,28 +38,19 @@ OrderedPattern ordered(const Pattern& pattern, const Order& order) {
   result.dim.resize(n);
   for (Index k = 0; k < n; ++k) result.dim[k] = pattern.dim[order[k]];
 
-  // Counting sort of the rows by their first position.
-  std::vector<Index> first(pattern.rows());
-  std::vector<Index> at(n + 2, 0);
-  Index kept = 0;
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    first[r] = n;
-    for (Index j : pattern.row(r)) first[r] = std::min(first[r], position[j]);
-    ++at[first[r] + 1];
-    kept += first[r] < n;
+  std::vector<Index> first(pattern.rows.size(), -1);  // position of every row
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    for (Index j : pattern.rows[r]) {
+      if (first[r] < 0 || position[j] < first[r]) first[r] = position[j];
+    }
   }
-  std::partial_sum(at.begin(), at.end(), at.begin());
-  std::vector<Index> sorted(pattern.rows());
-  for (Index r = 0; r < pattern.rows(); ++r) sorted[at[first[r]]++] = r;
-
-  result.row_begin.reserve(kept + 1);
-  result.row_begin.push_back(0);
-  result.row_positions.reserve(pattern.row_variables.size());
-  for (Index s = 0; s < kept; ++s) {
-    const auto begin = static_cast<std::ptrdiff_t>(result.row_positions.size());
-    for (Index j : pattern.row(sorted[s])) result.row_positions.push_back(position[j]);
-    std::sort(result.row_positions.begin() + begin, result.row_positions.end());
-    result.row_begin.push_back(static_cast<Index>(result.row_positions.size()));
+  const Lists<> by_first = grouped(first, n);
+  result.rows.begin.reserve(by_first.items.size() + 1);
+  result.rows.items.reserve(pattern.rows.items.size());
+  for (Index r : by_first.items) {
+    for (Index j : pattern.rows[r]) result.rows.items.push_back(position[j]);
+    std::ranges::sort(result.rows.open());
+    result.rows.close();
   }
   return result;
 }
@@ -73,20 +73,14 @@ void add_links(std::span<const Index> row, const auto& position, std::vector<Lin
   }
 }
 
-std::vector<Link> sorted(const std::vector<Link>& list, Index n) {
-  std::vector<Index> at(n + 1, 0);  // counting sort
-  for (const Link& link : list) ++at[link.upper + 1];
-  std::partial_sum(at.begin(), at.end(), at.begin());
-  std::vector<Link> result(list.size());
-  for (const Link& link : list) result[at[link.upper]++] = link;
-  return result;
-}
-
 Links links_of(const auto& pattern, const auto& position) {
   std::vector<Link> list;
-  list.reserve(pattern.rows());
-  for (Index r = 0; r < pattern.rows(); ++r) add_links(pattern.row(r), position, list);
-  return {pattern.variables(), sorted(list, pattern.variables())};
+  list.reserve(pattern.rows.size());
+  for (Index r = 0; r < pattern.rows.size(); ++r) add_links(pattern.rows[r], position, list);
+  const Index n = pattern.variables();
+  return {n, counting_sort<Link>(n, [&](const auto& put) {
+               for (const Link& link : list) put(link.upper, link);
+             }).items};
 }
 
 }  // namespace
@@ -101,6 +95,10 @@ Links links(const OrderedPattern& pattern) {
 }
 
 std::vector<Index> elimination_tree(const Links& links) {
+  assert(std::ranges::is_sorted(links.list, {}, &Link::upper));
+  assert(std::ranges::all_of(links.list, [&](const Link& link) {
+    return 0 <= link.lower && link.lower < link.upper && link.upper < links.size;
+  }));
   std::vector<Index> parent(links.size, -1);
   std::vector<Index> ancestor(links.size, -1);
   for (const Link& link : links.list) {
@@ -120,6 +118,7 @@ std::vector<Index> elimination_tree(const Links& links) {
 }
 
 std::vector<Index> subtree_sizes(const std::vector<Index>& parent) {
+  assert(is_forest(parent));
   std::vector<Index> size(parent.size(), 1);
   for (std::size_t k = 0; k < parent.size(); ++k) {
     if (parent[k] >= 0) size[parent[k]] += size[k];
@@ -129,6 +128,7 @@ std::vector<Index> subtree_sizes(const std::vector<Index>& parent) {
 
 std::vector<Index> postorder_ranks(const std::vector<Index>& parent,
                                    const std::vector<Index>& size) {
+  assert(is_forest(parent) && size.size() == parent.size());
   // From the last root down, every vertex takes the last free place of its parent's subtree.
   std::vector<Index> rank(parent.size());
   std::vector<Index> free_end(parent.size());  // of every vertex's subtree
@@ -149,6 +149,7 @@ std::vector<Index> postorder(const std::vector<Index>& parent) {
 }
 
 Index height(const std::vector<Index>& parent) {
+  assert(is_forest(parent));
   std::vector<Index> depth(parent.size(), 1);
   Index deepest = 0;
   for (auto k = static_cast<Index>(parent.size()) - 1; k >= 0; --k) {

@@ -8,6 +8,7 @@
 // Vertices are numbered 0..n-1 by ascending id, edges 0..m-1 in file order.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -56,6 +57,7 @@ struct Graph {
   Index vertices() const { return static_cast<Index>(id.size()); }
   Index edges() const { return static_cast<Index>(edge_type.size()); }
   std::span<const Index> edge(Index e) const {
+    assert(0 <= e && e < edges());
     return {edge_vertices.data() + edge_begin[e],
             static_cast<std::size_t>(edge_begin[e + 1] - edge_begin[e])};
   }
@@ -74,6 +76,7 @@ std::optional<Index> find_vertex(const Graph& graph, Id id);
 // The line (without its end) whose content starts at `line`, and its 1-based number. The number
 // costs a count of the text before it: for messages.
 std::string_view line_at(const Graph& graph, Offset line);
+std::string_view line_at(const Graph&& graph, Offset line) = delete;  // it points into the text
 std::size_t line_number(const Graph& graph, Offset line);
 
 // An input Error at that line of the graph's file.

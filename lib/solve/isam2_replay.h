@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 #include "lib/solve/isam2.h"
 
@@ -19,8 +20,8 @@ struct Isam2Replay {
   Values file;                       // start_values without; of a file without estimates: empty
   PoseIndex poses;
   Replay steps;
-  ByStep vertices;  // by step
-  ByStep edges;     // by step
+  Lists<> vertices;  // by step
+  Lists<> edges;     // by step
   std::vector<bool> placed;
   Isam2 isam;
 };
@@ -28,9 +29,10 @@ struct Isam2Replay {
 // start_from_file needs a file with estimates; throws an input Error otherwise.
 Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& options, int min_obs,
                               bool start_from_file);
+Isam2Replay make_isam2_replay(const Problem&&, const Isam2Options&, int, bool) = delete;
 
 // Step k, after 0 .. k - 1. Throws a computation Error that names the step and the undetermined
-// vertices if it cannot be solved.
+// vertices if it cannot be solved, and those of check_row (linearize.h).
 Isam2Report replay_step(Isam2Replay& replay, Index k);
 
 }  // namespace sg

@@ -53,7 +53,7 @@ Index landmark_count(const Sine& world, double area) {
   if (world.landmarks > 0) return world.landmarks;
   const double count = std::round(world.density * area);
   if (!(count <= std::numeric_limits<Index>::max()))
-    throw computation_error("more landmarks than a graph can hold");
+    throw computation_error("the density asks for more landmarks than a graph can hold");
   return static_cast<Index>(count);
 }
 
@@ -81,9 +81,9 @@ void look(const Sine& world, LandmarkGraph& graph) {
       const Eigen::Vector3d& landmark = graph.landmarks[l];
       Eigen::Vector3d point;
       point << act(inverse(pose), landmark.head<2>()), landmark.z();
-      if (sees(world.optics, world.sensor, point)) graph.seen.push_back(l);
+      if (sees(world.optics, world.sensor, point)) graph.seen.items.push_back(l);
     }
-    end_observations(graph);
+    graph.seen.close();
   }
 }
 

@@ -22,17 +22,13 @@ using sg::Pattern;
 Pattern odd_pattern(std::mt19937& random, Index n) {
   Pattern pattern;
   for (Index j = 0; j < n; ++j) pattern.dim.push_back(1 + static_cast<int>(random() % 6));
-  pattern.row_begin.push_back(0);
   for (auto rows = n == 0 ? 0 : random() % (2 * n); rows > 0; --rows) {
-    const auto begin = static_cast<std::ptrdiff_t>(pattern.row_variables.size());
     for (auto k = 1 + random() % 4; k > 0; --k) {
       const auto j = static_cast<Index>(random() % n);
-      const auto row = pattern.row_variables.begin() + begin;
-      if (std::find(row, pattern.row_variables.end(), j) == pattern.row_variables.end()) {
-        pattern.row_variables.push_back(j);
-      }
+      const auto row = pattern.rows.open();
+      if (std::find(row.begin(), row.end(), j) == row.end()) pattern.rows.items.push_back(j);
     }
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+    pattern.rows.close();
   }
   return pattern;
 }

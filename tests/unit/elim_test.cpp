@@ -27,18 +27,15 @@ int uniform(int low, int high) {
 }
 
 Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows) {
-  Pattern pattern{std::move(dim), {0}, {}};
-  for (const auto& row : rows) {
-    pattern.row_variables.insert(pattern.row_variables.end(), row.begin(), row.end());
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
-  }
+  Pattern pattern{std::move(dim), {}};
+  for (const auto& row : rows) pattern.rows.add(row);
   return pattern;
 }
 
 std::vector<std::vector<Index>> rows_of(const Pattern& pattern) {
   std::vector<std::vector<Index>> rows;
-  for (Index r = 0; r < pattern.rows(); ++r)
-    rows.emplace_back(pattern.row(r).begin(), pattern.row(r).end());
+  for (Index r = 0; r < pattern.rows.size(); ++r)
+    rows.emplace_back(pattern.rows[r].begin(), pattern.rows[r].end());
   return rows;
 }
 
@@ -72,15 +69,15 @@ Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) 
   std::vector<Index> first(pattern.variables() + 1, 0);
   std::partial_sum(pattern.dim.begin(), pattern.dim.end(), first.begin() + 1);
   std::vector<std::vector<Index>> rows;
-  for (Index r = 0; r < pattern.rows() + pattern.variables(); ++r) {
+  for (Index r = 0; r < pattern.rows.size() + pattern.variables(); ++r) {
     auto& row = rows.emplace_back();
     const auto add = [&](Index j) {
       for (Index s = first[j]; s < first[j + 1]; ++s) row.push_back(s);
     };
-    if (r < pattern.rows()) {
-      for (Index j : pattern.row(r)) add(j);
+    if (r < pattern.rows.size()) {
+      for (Index j : pattern.rows[r]) add(j);
     } else {
-      add(r - pattern.rows());  // a variable is dense in itself
+      add(r - pattern.rows.size());  // a variable is dense in itself
     }
   }
   scalar_order.clear();
@@ -93,9 +90,9 @@ Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) 
 // Node elimination with nothing but sets.
 std::vector<EliminationStep> set_elimination(const Pattern& pattern, const Order& order) {
   std::vector<std::set<Index>> adjacent(pattern.variables());
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    for (Index i : pattern.row(r)) {
-      for (Index j : pattern.row(r)) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    for (Index i : pattern.rows[r]) {
+      for (Index j : pattern.rows[r]) {
         if (i != j) adjacent[i].insert(j);
       }
     }

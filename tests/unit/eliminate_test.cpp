@@ -31,14 +31,10 @@ struct System {
 };
 
 void add_row(System& system, int height, const std::vector<sg::Index>& variables, Random& random) {
-  if (system.pattern.row_begin.empty()) system.pattern.row_begin.push_back(0);
   if (system.linear.begin.empty()) system.linear.begin.push_back(0);
   int width = 1;
-  for (sg::Index j : variables) {
-    system.pattern.row_variables.push_back(j);
-    width += system.pattern.dim[j];
-  }
-  system.pattern.row_begin.push_back(static_cast<sg::Index>(system.pattern.row_variables.size()));
+  for (sg::Index j : variables) width += system.pattern.dim[j];
+  system.pattern.rows.add(variables);
   system.linear.height.push_back(height);
   for (int k = 0; k < height * width; ++k) system.linear.numbers.push_back(draw_real(random));
   system.linear.begin.push_back(static_cast<sg::Offset>(system.linear.numbers.size()));
@@ -80,10 +76,10 @@ Dense dense(const System& system) {
   for (int height : system.linear.height) rows += height;
   Dense result{Eigen::MatrixXd::Zero(rows, at.back()), Eigen::VectorXd::Zero(rows)};
   int row = 0;
-  for (sg::Index r = 0; r < system.pattern.rows(); ++r) {
+  for (sg::Index r = 0; r < system.pattern.rows.size(); ++r) {
     const int height = system.linear.height[r];
     const double* column = system.linear.block(r);
-    for (sg::Index j : system.pattern.row(r)) {
+    for (sg::Index j : system.pattern.rows[r]) {
       for (int k = 0; k < system.pattern.dim[j]; ++k, column += height)
         result.a.block(row, at[j] + k, height, 1) =
             Eigen::Map<const Eigen::VectorXd>(column, height);
@@ -280,17 +276,17 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
       if (!relaxed) CHECK(tree.cliques() == score.cliques);
       // What a clique passes on lies within its parent.
       for (sg::Index c = 0; c < tree.cliques(); ++c) {
-        CHECK((tree.separators_of(c).empty()) == (tree.parent[c] < 0));
+        CHECK((tree.separators[c].empty()) == (tree.parent[c] < 0));
         if (tree.parent[c] < 0) continue;
-        const auto f = tree.frontals_of(tree.parent[c]), s = tree.separators_of(tree.parent[c]);
-        for (sg::Index j : tree.separators_of(c)) {
+        const auto f = tree.frontals[tree.parent[c]], s = tree.separators[tree.parent[c]];
+        for (sg::Index j : tree.separators[c]) {
           const bool found = std::find(f.begin(), f.end(), j) != f.end() ||
                              std::find(s.begin(), s.end(), j) != s.end();
           CHECK(found);
         }
       }
       // Renumbered, the elimination costs the same.
-      CHECK(sg::elimination_complexity(system.pattern, tree.frontals) == score.ec);
+      CHECK(sg::elimination_complexity(system.pattern, tree.frontals.items) == score.ec);
     }
   }
 }
@@ -315,20 +311,20 @@ TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
     sg::back_substitute(elimination, step);
     gradient.assign(step.size(), 0);
     double scale = 0;
-    for (sg::Index r = 0; r < system.pattern->rows(); ++r) {
+    for (sg::Index r = 0; r < system.pattern->rows.size(); ++r) {
       const int height = system.height[r];
       const auto column = [&](int k) {
         return Eigen::Map<const Eigen::VectorXd>(system.block(r) + k * height, height);
       };
       int k = 0;
       Eigen::VectorXd error = Eigen::VectorXd::Zero(height);
-      for (sg::Index j : system.pattern->row(r)) {
+      for (sg::Index j : system.pattern->rows[r]) {
         for (int i = 0; i < system.pattern->dim[j]; ++i)
           error += column(k++) * step[problem.step_at[j] + i];
       }
       error -= column(k);
       k = 0;
-      for (sg::Index j : system.pattern->row(r)) {
+      for (sg::Index j : system.pattern->rows[r]) {
         for (int i = 0; i < system.pattern->dim[j]; ++i, ++k) {
           gradient[problem.step_at[j] + i] += column(k).dot(error);
           scale = std::max(scale, column(k).norm() * error.norm());

@@ -26,7 +26,6 @@ using sg::Pattern;
 Pattern odd_pattern(std::mt19937& random, Index n) {
   Pattern pattern;
   for (Index j = 0; j < n; ++j) pattern.dim.push_back(1 + static_cast<int>(random() % 6));
-  pattern.row_begin.push_back(0);
   const Index rows = n == 0 ? 1 : static_cast<Index>(random() % (2 * n + 1));
   for (Index r = 0; r < rows; ++r) {
     std::vector<Index> row;
@@ -34,8 +33,7 @@ Pattern odd_pattern(std::mt19937& random, Index n) {
       const auto j = static_cast<Index>(random() % n);
       if (std::find(row.begin(), row.end(), j) == row.end()) row.push_back(j);
     }
-    pattern.row_variables.insert(pattern.row_variables.end(), row.begin(), row.end());
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+    pattern.rows.add(row);
   }
   return pattern;
 }
@@ -63,9 +61,9 @@ sg::Wide literal_ec(const Pattern& pattern, const Order& order) {
 Pattern side_by_side(const Pattern& a, const Pattern& b) {
   Pattern both = a;
   both.dim.insert(both.dim.end(), b.dim.begin(), b.dim.end());
-  for (Index r = 0; r < b.rows(); ++r) {
-    for (const Index j : b.row(r)) both.row_variables.push_back(a.variables() + j);
-    both.row_begin.push_back(static_cast<Index>(both.row_variables.size()));
+  for (Index r = 0; r < b.rows.size(); ++r) {
+    for (const Index j : b.rows[r]) both.rows.items.push_back(a.variables() + j);
+    both.rows.close();
   }
   return both;
 }
@@ -145,11 +143,8 @@ TEST_CASE("methods that order part by part give each part its own order", "[orde
 // A path has an order without fill, and all minimum-degree and profile methods find one.
 TEST_CASE("paths are ordered without fill", "[order]") {
   for (const Index n : {2, 3, 10, 500}) {
-    Pattern path{std::vector<int>(n, 3), {0}, {}};
-    for (Index j = 0; j + 1 < n; ++j) {
-      path.row_variables.insert(path.row_variables.end(), {j + 1, j});
-      path.row_begin.push_back(static_cast<Index>(path.row_variables.size()));
-    }
+    Pattern path{std::vector<int>(n, 3), {}};
+    for (Index j = 0; j + 1 < n; ++j) path.rows.add(std::array{j + 1, j});
     for (const char* name : {"id", "colamd", "amd", "wmf", "mmd", "rcm", "king", "sloan"}) {
       INFO(name << ", " << n << " variables");
       const Order order = sg::elimination_order(name, path);

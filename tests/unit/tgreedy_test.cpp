@@ -9,8 +9,8 @@
 #include <random>
 
 #include "formats/formats.h"
-#include "lib/elim/trees.h"
 #include "lib/prune/candidates.h"
+#include "lib/trees/spanning_trees.h"
 
 using namespace sg;
 using Eigen::MatrixXd;

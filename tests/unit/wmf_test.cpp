@@ -29,11 +29,7 @@ using Row = std::vector<Index>;
 Pattern pattern_of(std::vector<int> dim, const std::vector<Row>& rows) {
   Pattern pattern;
   pattern.dim = std::move(dim);
-  pattern.row_begin.push_back(0);
-  for (const Row& row : rows) {
-    pattern.row_variables.insert(pattern.row_variables.end(), row.begin(), row.end());
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
-  }
+  for (const Row& row : rows) pattern.rows.add(row);
   return pattern;
 }
 
@@ -70,9 +66,9 @@ struct Literal {
   std::vector<std::set<Index>> neighbours;
 
   explicit Literal(const Pattern& pattern) : dim(pattern.dim), neighbours(pattern.dim.size()) {
-    for (Index r = 0; r < pattern.rows(); ++r) {
-      for (Index a : pattern.row(r)) {
-        for (Index b : pattern.row(r)) {
+    for (Index r = 0; r < pattern.rows.size(); ++r) {
+      for (Index a : pattern.rows[r]) {
+        for (Index b : pattern.rows[r]) {
           if (a != b) neighbours[a].insert(b);
         }
       }
