@@ -17,9 +17,9 @@ tutorial() {
   [ "$(tutorial sg-ec -m id -f ec --no-header)" = 83 ]               # 3 (3 + 2)^2 + 2^3
   tutorial sg-rand -p 1 --no-trace-comment >out.g2o
   cmp "$TESTDATA/tutorial.g2o" out.g2o
-  fails 1 "sg-ec: tutorial.g2o:1: unknown tag 'TUTORIAL_PARAMS_SE2_OFFSET' (--vertex, --edge and --params teach a new one)" \
+  fails 1 "sg-ec: tutorial.g2o:2: unknown tag 'TUTORIAL_PARAMS_SE2_OFFSET' (--vertex, --edge and --params teach a new one)" \
     env -C "$TESTDATA" sg-ec tutorial.g2o
-  fails 1 "sg-solve: $TESTDATA/tutorial.g2o:2: TUTORIAL_VERTEX_SE2 has no measurement model here" tutorial sg-solve
+  fails 1 "sg-solve: $TESTDATA/tutorial.g2o:3: TUTORIAL_VERTEX_SE2 has no measurement model here" tutorial sg-solve
 }
 
 # refused OPTION SPEC CAUSE COMMAND...: a wrong call, whatever the command would do with the graph.
