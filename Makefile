@@ -10,8 +10,8 @@ JOBS   ?= $(shell nproc)
 BUILD_PACKAGES := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
 	libcairo2-dev libspectra-dev pkg-config
-TEST_PACKAGES  := catch2 bats mandoc graphviz zstd gzip
-LINT_PACKAGES  := clang-format clang-tidy mandoc git
+TEST_PACKAGES  := catch2 bats python3 mandoc graphviz zstd gzip
+LINT_PACKAGES  := clang-format clang-tidy python3 mandoc git
 BENCH_PACKAGES := libbenchmark-dev
 FUZZ_PACKAGES  := clang libclang-rt-14-dev
 PLOT_PACKAGES  := gnuplot-nox graphviz
@@ -86,6 +86,7 @@ lint: build ## check style, includes, sources and man pages
 	$(call need,$(LINT_PACKAGES))
 	@clang-format --dry-run --Werror $(SOURCES)
 	@tests/layers
+	@tests/lint_tests
 	@mandoc -T lint -W warning man/*.[157]
 	@printf '%s\n' $(filter %.cpp,$(SOURCES)) | grep -v '^tests/fuzz\|^tests/bench' | \
 	  xargs -P $(JOBS) -n 4 clang-tidy --quiet -p $(BUILD)
