@@ -87,7 +87,7 @@ lint: build ## check style, includes, sources and man pages
 	@clang-format --dry-run --Werror $(SOURCES)
 	@tests/layers
 	@tests/lint_tests
-	@mandoc -T lint -W warning man/*.[157]
+	@tests/pages
 	@printf '%s\n' $(filter %.cpp,$(SOURCES)) | grep -v '^tests/fuzz\|^tests/bench' | \
 	  xargs -P $(JOBS) -n 4 clang-tidy --quiet -p $(BUILD)
 

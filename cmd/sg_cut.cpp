@@ -2,7 +2,7 @@
 
 #include "cmd/common/command.h"
 #include "lib/graph/cut.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "cmd/common/table.h"
 #include "lib/elim/node_elimination.h"
 #include "lib/elim/score.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include "formats/order_file.h"
 #include "formats/reorder.h"
 #include "lib/factor/initialize.h"
-#include "lib/graph/error.h"
 #include "lib/order/order.h"
+#include "lib/text/error.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
-#include "lib/graph/error.h"
 #include "lib/order/order.h"
+#include "lib/text/error.h"
 
 namespace {
 

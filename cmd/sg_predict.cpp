@@ -4,7 +4,7 @@
 #include "cmd/common/command.h"
 #include "cmd/common/table.h"
 #include "lib/elim/predict.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace {
 

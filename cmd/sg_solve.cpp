@@ -13,8 +13,8 @@
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
-#include "lib/graph/tokens.h"
 #include "lib/solve/batch.h"
+#include "lib/text/words.h"
 
 namespace {
 

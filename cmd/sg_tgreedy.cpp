@@ -1,7 +1,7 @@
 #include "cmd/common/prune_options.h"
 #include "cmd/common/table.h"
-#include "lib/graph/tokens.h"
 #include "lib/prune/tgreedy.h"
+#include "lib/text/words.h"
 
 namespace {
 

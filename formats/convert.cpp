@@ -9,7 +9,7 @@
 #include "formats/mtx.h"
 #include "formats/toro.h"
 #include "formats/tum.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

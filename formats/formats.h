@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/graph/error.h"
 #include "lib/graph/graph.h"
+#include "lib/text/error.h"
 
 namespace sg {
 

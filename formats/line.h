@@ -8,7 +8,7 @@
 
 #include "formats/formats.h"
 #include "formats/write.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 namespace sg {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "lib/graph/error.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "formats/euler.h"
 #include "formats/line.h"
-#include "lib/graph/error.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {

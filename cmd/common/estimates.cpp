@@ -1,6 +1,6 @@
 #include "cmd/common/estimates.h"
 
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {

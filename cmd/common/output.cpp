@@ -11,7 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

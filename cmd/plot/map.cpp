@@ -7,8 +7,8 @@
 #include "cmd/plot/scenes.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/space.h"
-#include "lib/graph/error.h"
 #include "lib/graph/replay.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

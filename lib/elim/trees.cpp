@@ -7,7 +7,7 @@
 #include <memory>
 #include <numeric>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -8,8 +8,8 @@
 #include "lib/factor/estimate.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/whitening.h"
-#include "lib/graph/error.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "lib/graph/components.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {

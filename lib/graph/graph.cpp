@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "lib/graph/error.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {

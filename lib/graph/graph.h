@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "lib/graph/tags.h"
-#include "lib/graph/text.h"
+#include "lib/text/text.h"
 
 namespace sg {
 

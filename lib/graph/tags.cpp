@@ -4,7 +4,7 @@
 #include <charconv>
 #include <limits>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "lib/graph/error.h"
 #include "lib/order/constraint.h"
 #include "lib/order/methods.h"
+#include "lib/text/error.h"
 
 namespace sg::ordering {
 namespace {

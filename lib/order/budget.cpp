@@ -1,9 +1,9 @@
 #include <cmath>
 #include <string>
 
-#include "lib/graph/error.h"
-#include "lib/graph/tokens.h"
 #include "lib/order/order.h"
+#include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg {
 

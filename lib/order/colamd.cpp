@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "lib/graph/error.h"
 #include "lib/order/constraint.h"
 #include "lib/order/methods.h"
+#include "lib/text/error.h"
 
 namespace sg::ordering {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <string>
 
-#include "lib/graph/error.h"
 #include "lib/order/methods.h"
 #include "lib/order/parts.h"
+#include "lib/text/error.h"
 
 namespace sg::ordering {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "lib/graph/error.h"
 #include "lib/order/methods.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <memory>
 
-#include "lib/graph/error.h"
 #include "lib/order/methods.h"
 #include "lib/order/parts.h"
+#include "lib/text/error.h"
 
 namespace sg::ordering {
 namespace {

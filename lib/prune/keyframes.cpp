@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/geometry/information.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

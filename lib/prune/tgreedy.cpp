@@ -7,7 +7,7 @@
 #include <set>
 
 #include "lib/elim/trees.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/graph/error.h"
 #include "lib/solve/cholmod.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

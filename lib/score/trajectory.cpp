@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/factor/initialize.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "lib/factor/linearize.h"
-#include "lib/graph/error.h"
 #include "lib/solve/linear_solver.h"
+#include "lib/text/error.h"
 
 namespace sg {
 

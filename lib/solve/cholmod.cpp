@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "lib/graph/error.h"
 #include "lib/solve/linear_solver.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "lib/factor/initialize.h"
-#include "lib/graph/error.h"
 #include "lib/solve/snapshot.h"
 #include "lib/solve/undetermined.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

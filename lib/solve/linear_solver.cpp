@@ -3,8 +3,8 @@
 #include <array>
 #include <memory>
 
-#include "lib/graph/error.h"
 #include "lib/solve/eliminate.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

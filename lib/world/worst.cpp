@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {

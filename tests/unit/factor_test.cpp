@@ -5,7 +5,7 @@
 #include "formats/formats.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 using namespace sg;
 

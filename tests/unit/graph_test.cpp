@@ -8,7 +8,7 @@
 #include "formats/formats.h"
 #include "lib/graph/pattern.h"
 #include "lib/graph/replay.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 using namespace sg;
 

@@ -10,13 +10,13 @@
 #include <set>
 
 #include "formats/formats.h"
-#include "lib/graph/error.h"
 #include "lib/order/order.h"
 #include "lib/solve/batch.h"
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_replay.h"
 #include "lib/solve/pool.h"
 #include "lib/solve/snapshot.h"
+#include "lib/text/error.h"
 
 namespace {
 

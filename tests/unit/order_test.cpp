@@ -13,7 +13,7 @@
 #include "formats/formats.h"
 #include "lib/elim/node_elimination.h"
 #include "lib/elim/score.h"
-#include "lib/graph/error.h"
+#include "lib/text/error.h"
 
 namespace {
 

@@ -10,11 +10,11 @@
 
 #include "formats/formats.h"
 #include "formats/write.h"
-#include "lib/graph/tokens.h"
 #include "lib/prune/candidates.h"
 #include "lib/prune/decimate.h"
 #include "lib/prune/keyframes.h"
 #include "lib/prune/sample.h"
+#include "lib/text/words.h"
 
 using namespace sg;
 using Eigen::MatrixXd;

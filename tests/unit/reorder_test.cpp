@@ -6,7 +6,7 @@
 #include <random>
 
 #include "formats/formats.h"
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The quick ways through a line agree with the slow one.
-#include "lib/graph/tokens.h"
+#include "lib/text/words.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -20,7 +20,7 @@ std::string random_line(const std::string& alphabet) {
 
 }  // namespace
 
-TEST_CASE("a plain number is one that conversion accepts", "[tokens]") {
+TEST_CASE("a plain number is one that conversion accepts", "[words]") {
   for (int trial = 0; trial < 200'000; ++trial) {
     const std::string line = random_line("0123456789.-+ \r\tenx");
     std::string_view quick = line;
@@ -35,7 +35,7 @@ TEST_CASE("a plain number is one that conversion accepts", "[tokens]") {
   }
 }
 
-TEST_CASE("a plain id is what conversion makes of it", "[tokens]") {
+TEST_CASE("a plain id is what conversion makes of it", "[words]") {
   for (int trial = 0; trial < 200'000; ++trial) {
     const std::string line = random_line("0123456789012345678901234567890123456789 -+x");
     std::string_view quick = line;
@@ -50,7 +50,7 @@ TEST_CASE("a plain id is what conversion makes of it", "[tokens]") {
   }
 }
 
-TEST_CASE("plain numbers are taken quickly, others are left to conversion", "[tokens]") {
+TEST_CASE("plain numbers are taken quickly, others are left to conversion", "[words]") {
   for (const std::string word : {"1", "-1.5", ".5", "5.", "-0", "000.1"}) {
     std::string_view line = word;
     CHECK(take_plain_number(line));
