@@ -17,7 +17,7 @@ FUZZ_PACKAGES  := clang libclang-rt-14-dev
 PLOT_PACKAGES  := gnuplot-nox graphviz
 
 .DEFAULT_GOAL := build
-.PHONY: help deps build demo check test install bench fuzz paper orderings lint format clean
+.PHONY: help deps build demo check test mutants install bench fuzz paper orderings lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -50,6 +50,9 @@ check: build test ## set up, build, and run every test
 
 test:
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+mutants: deps ## break the sources in 400 places, one at a time, and list what no test notices (MUTANTS="--sites 100")
+	@nice tests/mutants/run --jobs $(JOBS) $(MUTANTS)
 
 install: build ## install commands, man pages, library and CMake package (PREFIX=...)
 	@cmake --install $(BUILD) --prefix $(PREFIX)
