@@ -19,8 +19,7 @@ sg::Graph with_estimates(const sg::Graph& graph, sg::ReadOptions options) {
   const sg::Values values = sg::start_values(problem);
   std::string text;
   for (sg::Index v = 0; v < graph.vertices(); ++v) {
-    text += graph.type_of_vertex(v).tag + " " + std::to_string(graph.id[v]) + " " +
-            sg::estimate_text(problem, values, v) + "\n";
+    text += sg::vertex_line(problem, values, v);
   }
   text += graph.text.view;
   options.format = "g2o";

@@ -137,8 +137,7 @@ sg::Edit vertex_lines(const sg::Graph& graph, const std::vector<sg::Index>& vert
   const sg::Values values = sg::initial_values(problem);
   sg::Edit edit{graph.edge_line.front(), graph.edge_line.front(), ""};
   for (const sg::Index v : vertices) {
-    edit.replacement += graph.type_of_vertex(v).tag + " " + std::to_string(graph.id[v]) + " " +
-                        sg::estimate_text(problem, values, v) + "\n";
+    edit.replacement += sg::vertex_line(problem, values, v);
   }
   return edit;
 }

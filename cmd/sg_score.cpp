@@ -7,6 +7,7 @@
 #include "formats/tum.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
+#include "lib/geometry/numbers.h"
 #include "lib/score/connectivity.h"
 #include "lib/score/dopt.h"
 #include "lib/score/trajectory.h"
@@ -54,8 +55,7 @@ sg::Trajectory read_trajectory(const std::string& path, const sg::ReadOptions& o
   sg::Trajectory result;
   for (const auto& [id, n] : sg::read_tum(text.view, path)) {
     result.id.push_back(id);
-    result.pose.push_back(
-        {Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized(), {n[0], n[1], n[2]}});
+    result.pose.push_back(sg::normalized(sg::se3(n.data())));
   }
   return result;
 }

@@ -1,9 +1,9 @@
 // The measurements and information matrices that iSAM and TORO share, to g2o's conventions and
 // back.
 //
-// Both give a rotation as roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll), radians. g2o gives a
-// quaternion, and its information is over (dx, dy, dz, the vector part of dq) of a small motion d
-// in the measurement's end frame.
+// Both give a rotation as roll, pitch, yaw (lib/geometry/se3.h), radians. g2o gives a quaternion,
+// and its information is over (dx, dy, dz, the vector part of dq) of a small motion d in the
+// measurement's end frame.
 //
 // The information of (x, y, z, roll, pitch, yaw) is taken over the same small motion d, whose
 // roll, pitch and yaw are, to first order, its rotation vector. That is how the readers of g2o and
@@ -14,29 +14,29 @@
 // rotation as well: a difference of second order for small angles.
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <string>
 #include <string_view>
 
+#include "lib/geometry/se3.h"
+#include "lib/geometry/triangle.h"
+#include "lib/text/line.h"
+
 namespace sg {
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
-// Upper triangle, row by row, of a symmetric or an upper triangular N x N matrix.
+// The symmetric matrix whose upper triangle stands at the front of `rest`.
 template <int N>
-constexpr int triangle = N*(N + 1) / 2;
+Eigen::Matrix<double, N, N> read_symmetric(std::string_view& rest) {
+  std::array<double, triangle_size(N)> triangle{};
+  for (double& number : triangle) number = read_number(rest);
+  return symmetric<Eigen::Matrix<double, N, N>>(triangle);
+}
 
-// The upper triangular matrix whose N (N + 1) / 2 entries stand at the front of `rest`.
+// " w11 w12 ...": the upper triangle.
 template <int N>
-Eigen::Matrix<double, N, N> read_triangle(std::string_view& rest);
-
-// " w11 w12 ...": the upper triangle, row by row.
-template <int N>
-void append_triangle(std::string& out, const Eigen::Matrix<double, N, N>& matrix);
-
-// The symmetric matrix with this upper triangle.
-template <int N>
-Eigen::Matrix<double, N, N> symmetric(const Eigen::Matrix<double, N, N>& upper);
+void append_triangle(std::string& out, const Eigen::Matrix<double, N, N>& matrix) {
+  append_numbers(out, upper_triangle(matrix));
+}
 
 // S W S and its inverse S^-1 W S^-1.
 Matrix6d to_quaternion_information(const Matrix6d& information);

@@ -5,8 +5,8 @@
 
 #include "formats/g2o.h"
 #include "formats/isam.h"
-#include "formats/line.h"
 #include "formats/toro.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {
@@ -35,10 +35,6 @@ const ReadFormat& find_format(const ReadOptions& options, std::string_view text)
   throw usage_error("unknown format '" + name + "'; there are " + known);
 }
 
-std::string input_name(const std::string& path) {
-  return path == "-" ? "<stdin>" : path;
-}
-
 Graph read_graph(const std::string& path, const ReadOptions& options) {
   return read_graph_text(read_text(path), input_name(path), options);
 }
@@ -58,17 +54,17 @@ std::vector<std::pair<std::string, std::int64_t>> count_tags(std::string_view te
   std::vector<std::pair<std::string, std::int64_t>> counts;
   std::unordered_map<std::string_view, std::size_t> place;
   std::size_t last = 0;
-  for_lines(text, [&](std::string_view line) {
+  while (!text.empty()) {
+    auto line = next_line(text);
     auto tag = next_word(line);
-    if (tag.empty()) return true;
+    if (tag.empty()) continue;
     if (tag.front() == '#') tag = tag.substr(0, 1);
     if (last == counts.size() || counts[last].first != tag) {
       last = place.try_emplace(tag, counts.size()).first->second;
       if (last == counts.size()) counts.emplace_back(tag, 0);
     }
     ++counts[last].second;
-    return true;
-  });
+  }
   return counts;
 }
 

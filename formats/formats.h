@@ -29,13 +29,6 @@ struct ReadOptions {
   Complaint complaint;                    // empty: throw the first
 };
 
-// The bytes of a file ("-": standard input), unpacked if they are gzip or zstd. A regular file is
-// mapped, not copied. Throws an input Error for what cannot be opened or read.
-Text read_text(const std::string& path);
-
-// What messages call a path: itself, "-" <stdin>.
-std::string input_name(const std::string& path);
-
 // Reads a graph. `path` "-" is standard input.
 Graph read_graph(const std::string& path, const ReadOptions& options = {});
 // The same from text in memory; `file` names it in messages.

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "formats/line.h"
+#include "lib/text/line.h"
 
 namespace sg {
 namespace {
@@ -179,14 +179,14 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
 
 void parse_lines(Parser& parser) {
   const std::string_view text = parser.graph.text.view;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view line = next_line(rest);
+    const Offset at = line.data() - text.data();
     try {
-      parse_line(parser, static_cast<Offset>(at), text.substr(at, end - at));
+      parse_line(parser, at, line);
     } catch (const BadLine& bad) {
-      parser.complain(static_cast<Offset>(at), bad.cause);
+      parser.complain(at, bad.cause);
     }
-    at = end + 1;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "formats/euler.h"
-#include "formats/line.h"
+#include "formats/translate.h"
 
 namespace sg {
 namespace {
@@ -33,28 +33,25 @@ Id largest_pose_id(std::string_view text) {
   return largest;
 }
 
-void append_id(std::string& out, Id id) {
-  append_word(out, std::to_string(id));
-}
-
 // The rest of a line is R, of which nothing but W = R^T R goes on.
 template <int N>
 Eigen::Matrix<double, N, N> read_information(std::string_view& rest) {
-  const auto root = read_triangle<N>(rest);
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const Matrix root = read_symmetric<N>(rest).template triangularView<Eigen::Upper>();
   expect_end(rest);
   return root.transpose() * root;
 }
 
 void translate_odometry(std::string_view rest, std::string& out) {
   out += "EDGE_SE2";
-  for (int k = 0; k < 2; ++k) append_id(out, read_id(rest, "a pose id"));
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  for (int k = 0; k < 2; ++k) append_number(out, read_id(rest, "a pose id"));
+  copy_numbers(rest, 3, out);
   append_triangle<3>(out, read_information<3>(rest));
 }
 
 void translate_edge3(std::string_view rest, std::string& out) {
   out += "EDGE_SE3:QUAT";
-  for (int k = 0; k < 2; ++k) append_id(out, read_id(rest, "a pose id"));
+  for (int k = 0; k < 2; ++k) append_number(out, read_id(rest, "a pose id"));
   translate_euler_pose(rest, out);
   append_triangle<6>(out, to_quaternion_information(read_information<6>(rest)));
 }
@@ -65,23 +62,23 @@ void append_landmark_id(std::string& out, std::string_view& rest, Id after) {
   if (number > std::numeric_limits<Id>::max() - 1 - after)
     throw BadLine{"landmark " + std::to_string(number) +
                   ", numbered after the poses, is beyond 64 bits"};
-  append_id(out, after + 1 + number);
+  append_number(out, after + 1 + number);
 }
 
 void translate_landmark(std::string_view rest, Id after, std::string& out) {
   out += "EDGE_SE2_XY";
-  append_id(out, read_id(rest, "a pose id"));
+  append_number(out, read_id(rest, "a pose id"));
   append_landmark_id(out, rest, after);
-  for (int k = 0; k < 2; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 2, out);
   append_triangle<2>(out, read_information<2>(rest));
 }
 
 void translate_point3(std::string_view rest, Id after, std::string& out) {
   out += "EDGE_SE3_TRACKXYZ";
-  append_id(out, read_id(rest, "a pose id"));
+  append_number(out, read_id(rest, "a pose id"));
   append_landmark_id(out, rest, after);
   out += " 0";  // the sensor's offset: the identity that is appended at the end
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
   append_triangle<3>(out, read_information<3>(rest));
 }
 
@@ -126,26 +123,21 @@ Eigen::Matrix<double, N, N> square_root(const Eigen::Matrix<double, N, N>& infor
   return Eigen::HouseholderQR<Matrix>(root).matrixQR().template triangularView<Eigen::Upper>();
 }
 
-template <int N>
-Eigen::Matrix<double, N, N> read_symmetric(std::string_view& rest) {
-  return symmetric<N>(read_triangle<N>(rest));
-}
-
 void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out) {
   auto rest = line_at(graph, graph.edge_line[e]);
   const auto tag = next_word(rest);
   const bool point = tag == "EDGE_SE3_TRACKXYZ";
   const bool landmark = point || tag == "EDGE_SE2_XY";
   out = point ? "POINT3" : landmark ? "LANDMARK" : tag == "EDGE_SE2" ? "ODOMETRY" : "EDGE3";
-  append_id(out, read_id(rest, "a pose id"));
-  append_id(out, read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
+  append_number(out, read_id(rest, "a pose id"));
+  append_number(out, read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
   if (tag == "EDGE_SE3:QUAT") {
     translate_quaternion_pose(rest, out);
     return append_triangle<6>(out, square_root<6>(to_euler_information(read_symmetric<6>(rest))));
   }
   if (point) read_id(rest, "a parameter id");
   const int numbers = tag == "EDGE_SE2_XY" ? 2 : 3;
-  for (int k = 0; k < numbers; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, numbers, out);
   if (numbers == 2) return append_triangle<2>(out, square_root<2>(read_symmetric<2>(rest)));
   append_triangle<3>(out, square_root<3>(read_symmetric<3>(rest)));
 }

@@ -1,9 +1,10 @@
 #include "formats/order_file.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/text/error.h"
-#include "lib/text/words.h"
+#include "lib/text/line.h"
 
 namespace sg {
 namespace {
@@ -26,7 +27,7 @@ void read_line(Reader& reader, std::size_t number, std::string_view line) {
   const auto fail = [&](const std::string& cause) {
     throw input_error(reader.file, number, cause);
   };
-  if (!id) fail("'" + std::string(word) + "' is no vertex id");
+  if (!id) fail(quoted(word) + " is no vertex id");
   const auto v = find_vertex(reader.graph, *id);
   if (!v) fail("vertex " + std::to_string(*id) + " is not in the graph");
   if (reader.named[*v]) fail("vertex " + std::to_string(*id) + " is named a second time");
@@ -50,11 +51,8 @@ void check_complete(const Reader& reader) {
 Order parse_order(std::string_view text, const std::string& file, const Graph& graph,
                   const GraphPattern& variables) {
   Reader reader{file, graph, variables, std::vector<bool>(graph.vertices(), false)};
-  std::size_t number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    read_line(reader, ++number, text.substr(at, end - at));
-    at = end + 1;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    read_line(reader, number, next_line(text));
   }
   check_complete(reader);
   return std::move(reader.order);

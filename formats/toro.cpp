@@ -3,26 +3,26 @@
 #include <array>
 
 #include "formats/euler.h"
-#include "formats/line.h"
+#include "formats/translate.h"
 
 namespace sg {
 namespace {
 
 void append_ids(std::string& out, std::string_view& rest, int count) {
-  for (int k = 0; k < count; ++k) append_word(out, std::to_string(read_id(rest, "a vertex id")));
+  for (int k = 0; k < count; ++k) append_number(out, read_id(rest, "a vertex id"));
 }
 
 void translate_vertex2(std::string_view rest, std::string& out) {
   out += "VERTEX_SE2";
   append_ids(out, rest, 1);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
   expect_end(rest);
 }
 
 void translate_edge2(std::string_view rest, std::string& out) {
   out += "EDGE_SE2";
   append_ids(out, rest, 2);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
   std::array<std::string_view, 6> w;  // 11 12 22 33 13 23
   for (auto& word : w) word = read_number_text(rest);
   expect_end(rest);
@@ -40,9 +40,9 @@ void translate_edge3(std::string_view rest, std::string& out) {
   out += "EDGE_SE3:QUAT";
   append_ids(out, rest, 2);
   translate_euler_pose(rest, out);
-  const auto upper = read_triangle<6>(rest);
+  const Matrix6d information = read_symmetric<6>(rest);
   expect_end(rest);
-  append_triangle<6>(out, to_quaternion_information(upper));
+  append_triangle<6>(out, to_quaternion_information(information));
 }
 
 bool holds_vertex(const Graph& graph, Index v) {
@@ -58,13 +58,13 @@ bool holds_edge(const Graph& graph, Index e) {
 void write_se2(std::string_view rest, std::string& out) {
   out = "VERTEX2";
   append_ids(out, rest, 1);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
 }
 
 void write_edge_se2(std::string_view rest, std::string& out) {
   out = "EDGE2";
   append_ids(out, rest, 2);
-  for (int k = 0; k < 3; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 3, out);
   std::array<std::string_view, 6> w;  // 11 12 13 22 23 33
   for (auto& word : w) word = read_number_text(rest);
   for (const int k : {0, 1, 3, 5, 2, 4}) append_word(out, w[k]);
@@ -80,7 +80,7 @@ void write_edge_se3(std::string_view rest, std::string& out) {
   out = "EDGE3";
   append_ids(out, rest, 2);
   translate_quaternion_pose(rest, out);
-  append_triangle<6>(out, to_euler_information(read_triangle<6>(rest)));
+  append_triangle<6>(out, to_euler_information(read_symmetric<6>(rest)));
 }
 
 }  // namespace

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "formats/euler.h"
-#include "formats/line.h"
 #include "lib/text/error.h"
-#include "lib/text/words.h"
+#include "lib/text/line.h"
 
 namespace sg {
 namespace {
@@ -26,7 +25,7 @@ bool holds(const Graph& graph, Index v) {
 }
 
 void append_planar(std::string_view rest, std::string& out) {
-  for (int k = 0; k < 2; ++k) append_word(out, read_number_text(rest));
+  copy_numbers(rest, 2, out);
   const double theta = read_number(rest);
   out += " 0 0 0";
   append_number(out, std::sin(theta / 2));
@@ -56,7 +55,7 @@ void write_tum(const Graph& graph, const WriteOptions&, Sink& sink) {
     } else if (tag == "VERTEX3") {
       translate_euler_pose(rest, out);
     } else {
-      for (int k = 0; k < 7; ++k) append_word(out, read_number_text(rest));
+      copy_numbers(rest, 7, out);
     }
     sink.write(out += '\n');
   }
@@ -64,18 +63,17 @@ void write_tum(const Graph& graph, const WriteOptions&, Sink& sink) {
 
 namespace {
 
-// Calls with every line that is neither blank nor a comment, and its number; stops at false.
-template <class Call>
-void each_line(std::string_view text, Call call) {
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+// Takes lines off the front of `text` up to the next one that is neither blank nor a comment, and
+// counts them; empty at the end of the text.
+std::string_view next_pose_line(std::string_view& text, std::size_t& number) {
+  while (!text.empty()) {
+    ++number;
+    const std::string_view line = next_line(text);
     auto rest = line;
     const auto word = next_word(rest);
-    if (word.empty() || word.starts_with('#')) continue;
-    if (!call(line, number)) return;
+    if (!word.empty() && !word.starts_with('#')) return line;
   }
+  return {};
 }
 
 TumPose read_pose(std::string_view line, const std::string& file, std::size_t number) {
@@ -95,20 +93,18 @@ TumPose read_pose(std::string_view line, const std::string& file, std::size_t nu
 }  // namespace
 
 bool looks_like_tum(std::string_view text) {
-  bool result = false;
-  each_line(text, [&](std::string_view line, std::size_t) {
-    result = parse<double>(next_word(line)).has_value();
-    return false;
-  });
-  return result;
+  std::size_t number = 0;
+  auto line = next_pose_line(text, number);
+  return parse<double>(next_word(line)).has_value();
 }
 
 std::vector<TumPose> read_tum(std::string_view text, const std::string& file) {
   std::vector<TumPose> poses;
-  each_line(text, [&](std::string_view line, std::size_t number) {
+  std::size_t number = 0;
+  for (auto line = next_pose_line(text, number); !line.empty();
+       line = next_pose_line(text, number)) {
     poses.push_back(read_pose(line, file, number));
-    return true;
-  });
+  }
   std::sort(poses.begin(), poses.end(),
             [](const TumPose& a, const TumPose& b) { return a.id < b.id; });
   for (std::size_t k = 1; k < poses.size(); ++k) {

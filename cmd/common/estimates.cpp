@@ -22,8 +22,7 @@ Edit vertex_lines(const Problem& problem, const Values& values) {
   const Graph& graph = *problem.graph;
   Edit edit{graph.edge_line.front(), graph.edge_line.front(), ""};
   for (Index v = 0; v < graph.vertices(); ++v) {
-    edit.replacement += graph.type_of_vertex(v).tag + " " + std::to_string(graph.id[v]) + " " +
-                        estimate_text(problem, values, v) + "\n";
+    edit.replacement += vertex_line(problem, values, v);
   }
   return edit;
 }

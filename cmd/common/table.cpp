@@ -1,11 +1,11 @@
 #include "cmd/common/table.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {
@@ -77,12 +77,6 @@ std::string column_help(const std::vector<std::string_view>& names) {
 }
 
 }  // namespace
-
-std::string format_number(double value) {
-  std::array<char, 32> digits{};
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return {digits.data(), result.ptr};
-}
 
 void add_table(Command& command, TableOptions& options,
                const std::vector<std::string_view>& names) {

@@ -43,6 +43,4 @@ class Table {
   Output& output_;
 };
 
-std::string format_number(double value);  // shortest text that reads back the same
-
 }  // namespace sg

@@ -9,8 +9,8 @@
 // A step (w, t) moves E l by w x E l + t.
 #pragma once
 
-#include "lib/factor/estimate.h"
 #include "lib/factor/model.h"
+#include "lib/geometry/numbers.h"
 
 namespace sg {
 
@@ -20,19 +20,6 @@ inline Eigen::Vector3d g2o_log_so3(const Eigen::Quaterniond& q) {
   const double cosine = 1 - 2 * q.vec().squaredNorm();
   if (cosine > 0.99999) return 2 * q.w() * q.vec();
   return log_so3(q);
-}
-
-// (translation, rotation) to (rotation, translation) and back.
-inline Vector6d swapped(const Vector6d& v) {
-  Vector6d result;
-  result << v.tail<3>(), v.head<3>();
-  return result;
-}
-inline Matrix6d swapped(const Matrix6d& m) {
-  Matrix6d result;
-  result << m.bottomRightCorner<3, 3>(), m.bottomLeftCorner<3, 3>(), m.topRightCorner<3, 3>(),
-      m.topLeftCorner<3, 3>();
-  return result;
 }
 
 struct EdgeSe3Expmap {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "lib/factor/estimate.h"
 #include "lib/factor/model.h"
+#include "lib/geometry/numbers.h"
 
 namespace sg {
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lib/factor/estimate.h"
 #include "lib/factor/model.h"
+#include "lib/geometry/numbers.h"
 
 namespace sg {
 

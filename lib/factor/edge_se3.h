@@ -14,16 +14,15 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "lib/factor/estimate.h"
 #include "lib/factor/model.h"
+#include "lib/geometry/numbers.h"
 
 namespace sg {
 
 inline bool prepare_se3(const double* numbers, double* c) {
-  SE3 z = se3(numbers);
+  const SE3 z = se3(numbers);
   if (z.q.norm() < 1e-6) return false;
-  z.q.normalize();
-  set_se3(z, c);
+  set_se3(normalized(z), c);
   return true;
 }
 
@@ -40,8 +39,7 @@ inline Eigen::Quaterniond rotation_product(std::initializer_list<Eigen::Quaterni
 }
 
 inline void set_error(const SE3& d, double* e) {
-  Eigen::Map<Eigen::Vector3d>{e} = d.t;
-  Eigen::Map<Eigen::Vector3d>{e + 3} = (d.q.w() < 0 ? -1 : 1) * d.q.vec();
+  Eigen::Map<Vector6d>{e} = compact(d);
 }
 
 // The vector part of a (0, v) b is this times v.
@@ -145,7 +143,7 @@ struct EdgeSe3Prior {
 
   static bool place(const double* const*, const double* c, int, double* out) {
     const SE3 x = compose(se3(c), inverse(se3(c + 7)));
-    set_se3({x.q.normalized(), x.t}, out);
+    set_se3(normalized(x), out);
     return true;
   }
 };

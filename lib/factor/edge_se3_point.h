@@ -6,8 +6,8 @@
 // A step (u, v) of x moves x^-1 l by -u + 2 [x^-1 l]x v.
 #pragma once
 
-#include "lib/factor/estimate.h"
 #include "lib/factor/model.h"
+#include "lib/geometry/numbers.h"
 
 namespace sg {
 

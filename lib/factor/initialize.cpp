@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <queue>
 
-#include "lib/factor/estimate.h"
+#include "lib/geometry/numbers.h"
 
 namespace sg {
 namespace {

@@ -1,13 +1,13 @@
 #include "lib/factor/problem.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <unordered_map>
 
-#include "lib/factor/estimate.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/whitening.h"
+#include "lib/geometry/numbers.h"
+#include "lib/geometry/triangle.h"
 #include "lib/text/error.h"
 #include "lib/text/words.h"
 
@@ -49,10 +49,9 @@ void normalize_param(const Graph& graph, ParamKind kind, ParsedParam& param) {
     throw error_at(graph, param.line, quoted(param.tag) + " has too few numbers");
   }
   if (kind != ParamKind::se3_offset && kind != ParamKind::camera_calibration) return;
-  SE3 pose = se3(param.numbers.data());
+  const SE3 pose = se3(param.numbers.data());
   if (pose.q.norm() < 1e-6) throw error_at(graph, param.line, "a quaternion has length zero");
-  pose.q.normalize();
-  set_se3(pose, param.numbers.data());
+  set_se3(normalized(pose), param.numbers.data());
 }
 
 // What make_problem goes through the edges with.
@@ -94,22 +93,13 @@ void check_ends(const Builder& builder, Index e, const Model& model) {
   }
 }
 
-bool is_diagonal(std::span<const double> triangle, int dim) {
-  std::size_t k = 0;
-  for (int i = 0; i < dim; ++i) {
-    for (int j = i; j < dim; ++j, ++k) {
-      if (i != j && triangle[k] != 0) return false;
-    }
-  }
-  return true;
-}
-
 // Where the whitening matrix of this information stands.
 Index store_whitening(Builder& builder, Index e, std::span<const double> triangle, int dim) {
   Problem& problem = builder.problem;
   if (!std::ranges::equal(triangle, builder.last_triangle)) {
-    problem.whitening.resize(problem.whitening.size() + dim * dim);
-    if (!whitening(triangle, dim, &*problem.whitening.end() - dim * dim)) {
+    const std::size_t at = problem.whitening.size();
+    problem.whitening.resize(at + dim * dim);
+    if (!whitening(triangle, dim, problem.whitening.data() + at)) {
       throw error_at(builder.graph, builder.graph.edge_line[e],
                      "the information matrix is not positive semidefinite");
     }
@@ -128,7 +118,7 @@ void add_factor(Builder& builder, Index e) {
 
   auto& numbers = builder.numbers;
   edge_numbers(graph, e, numbers);
-  const int triangle = model->dim * (model->dim + 1) / 2;
+  const int triangle = triangle_size(model->dim);
   const int wanted = model->measurement + triangle + model->extra;
   if (static_cast<int>(numbers.size()) < wanted) {
     throw error_at(graph, line,
@@ -213,6 +203,7 @@ Problem make_problem(const Graph& graph) {
 
 Values file_values(const Problem& problem) {
   const Graph& graph = *problem.graph;
+  if (graph.edges_only) throw input_error(graph.file, 0, "the file has no VERTEX lines");
   Values values(problem.value_at.back());
   std::vector<double> numbers;
   for (Index v = 0; v < graph.vertices(); ++v) {
@@ -248,13 +239,14 @@ std::vector<double> estimate_numbers(const Problem& problem, const Values& value
 
 std::string estimate_text(const Problem& problem, const Values& values, Index v) {
   std::string text;
-  for (double number : estimate_numbers(problem, values, v)) {
-    char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
-    if (!text.empty()) text += ' ';
-    text.append(buffer, end);
-  }
-  return text;
+  append_numbers(text, estimate_numbers(problem, values, v));
+  return text.substr(1);
+}
+
+std::string vertex_line(const Problem& problem, const Values& values, Index v) {
+  const Graph& graph = *problem.graph;
+  return graph.type_of_vertex(v).tag + " " + std::to_string(graph.id[v]) + " " +
+         estimate_text(problem, values, v) + "\n";
 }
 
 }  // namespace sg

@@ -45,8 +45,10 @@ struct Problem {
 // kind, numbers that are missing, infinite or not a number, an information matrix that is not
 // positive semidefinite, a quaternion of length zero.
 Problem make_problem(const Graph& graph);
+Problem make_problem(const Graph&&) = delete;  // it points to the graph
 
-// The estimates of the file's VERTEX lines; of an edges-only file: initial_values (initialize.h).
+// The estimates of the file's VERTEX lines. An input Error where it has none: start_values
+// (initialize.h) composes them.
 Values file_values(const Problem& problem);
 
 // What edge e has of it all.
@@ -71,9 +73,10 @@ inline Ends ends_of(const Problem& problem, const Values& values, Index e) {
 // values (+) step, variable by variable.
 void retract(const Problem& problem, const std::vector<double>& step, Values& values);
 
-// The estimate's numbers as a VERTEX line writes them, and as text: separated by blanks, the
-// shortest that read back as the same doubles.
+// The estimate's numbers as a VERTEX line writes them; as text, separated by blanks, the shortest
+// that read back as the same doubles; and the whole line with its newline.
 std::vector<double> estimate_numbers(const Problem& problem, const Values& values, Index v);
 std::string estimate_text(const Problem& problem, const Values& values, Index v);
+std::string vertex_line(const Problem& problem, const Values& values, Index v);
 
 }  // namespace sg

@@ -1,10 +1,8 @@
 #include "lib/factor/space.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "lib/factor/estimate.h"
-#include "lib/geometry/se2.h"
+#include "lib/geometry/numbers.h"
 
 namespace sg {
 namespace {
@@ -19,24 +17,8 @@ constexpr std::array rows{
     Row{"VERTEX_TRACKXYZ", Space::xyz},      Row{"VERTEX_XYZ", Space::xyz},
 };
 
-SE3 normalized(SE3 x) {
-  x.q.normalize();
-  return x;
-}
-
-// A step whose vector part is longer than 1 is no unit quaternion: it turns by pi about that axis.
-SE3 quaternion_step(const double* step) {
-  SE3 d;
-  d.t = vector3(step);
-  d.q.vec() = vector3(step + 3);
-  d.q.w() = std::sqrt(std::max(0.0, 1 - d.q.vec().squaredNorm()));
-  return d;
-}
-
-SE3 expmap_step(const double* step) {
-  Vector6d v;
-  v << vector3(step + 3), vector3(step);
-  return exp(v);
+Vector6d vector6(const double* x) {
+  return Eigen::Map<const Vector6d>(x);
 }
 
 }  // namespace
@@ -61,10 +43,10 @@ void retract(Space space, const double* step, double* x) {
       x[2] = wrap(x[2] + step[2]);
       break;
     case Space::se3:
-      set_se3(normalized(compose(se3(x), quaternion_step(step))), x);
+      set_se3(normalized(compose(se3(x), from_compact(vector6(step)))), x);
       break;
     case Space::expmap:
-      set_se3(normalized(compose(expmap_step(step), se3(x))), x);
+      set_se3(normalized(compose(exp(swapped(vector6(step))), se3(x))), x);
       break;
     case Space::xy:
     case Space::xyz:

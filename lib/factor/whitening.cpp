@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "lib/factor/model.h"
+#include "lib/geometry/triangle.h"
 
 namespace sg {
 namespace {
@@ -16,12 +17,8 @@ constexpr double rounding = 1e-6;
 
 }  // namespace
 
-bool whitening(std::span<const double> upper_triangle, int dim, double* U) {
-  Matrix W(dim, dim);
-  std::size_t k = 0;
-  for (int i = 0; i < dim; ++i) {
-    for (int j = i; j < dim; ++j) W(i, j) = W(j, i) = upper_triangle[k++];
-  }
+bool whitening(std::span<const double> triangle, int dim, double* U) {
+  const auto W = symmetric<Matrix>(triangle, dim);
   Eigen::Map<Matrix> root(U, dim, dim);
   const Eigen::LLT<Matrix> cholesky(W);
   if (cholesky.info() == Eigen::Success) {

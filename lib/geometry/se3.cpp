@@ -1,5 +1,6 @@
 #include "lib/geometry/se3.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -61,6 +62,11 @@ SE3 between(const SE3& a, const SE3& b) {
   return {q * b.q, q * (b.t - a.t)};
 }
 
+SE3 normalized(SE3 a) {
+  a.q.normalize();
+  return a;
+}
+
 Vector3d act(const SE3& a, const Vector3d& point) {
   return a.q * point + a.t;
 }
@@ -105,6 +111,31 @@ Vector6d log(const SE3& a) {
   return v;
 }
 
+Vector6d compact(const SE3& a) {
+  Vector6d v;
+  v << a.t, (a.q.w() < 0 ? -1 : 1) * a.q.vec();
+  return v;
+}
+
+SE3 from_compact(const Vector6d& v) {
+  const double square = v.tail<3>().squaredNorm();
+  const SE3 a{Quaterniond(std::sqrt(std::max(0.0, 1 - square)), v[3], v[4], v[5]), v.head<3>()};
+  return square > 1 ? normalized(a) : a;
+}
+
+Vector6d swapped(const Vector6d& v) {
+  Vector6d result;
+  result << v.tail<3>(), v.head<3>();
+  return result;
+}
+
+Matrix6d swapped(const Matrix6d& m) {
+  Matrix6d result;
+  result << m.bottomRightCorner<3, 3>(), m.bottomLeftCorner<3, 3>(), m.topRightCorner<3, 3>(),
+      m.topLeftCorner<3, 3>();
+  return result;
+}
+
 Matrix3d inverse_left_jacobian_so3(const Vector3d& w) {
   const double a2 = w.squaredNorm(), a = std::sqrt(a2);
   const double second = a < small ? 1.0 / 12 + a2 / 720 + a2 * a2 / 30240
@@ -128,11 +159,10 @@ Quaterniond from_roll_pitch_yaw(double roll, double pitch, double yaw) {
 }
 
 Vector3d roll_pitch_yaw(const Quaterniond& q) {
-  const Matrix3d R = q.normalized().toRotationMatrix();
-  const double cosine = std::hypot(R(0, 0), R(1, 0));
-  const double pitch = std::atan2(-R(2, 0), cosine);
-  if (cosine < 1e-9) return {std::atan2(-R(1, 2), R(1, 1)), pitch, 0};
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+  const Matrix3d R = q.toRotationMatrix();
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
+  const double yaw = std::atan2(R(1, 0), R(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
+  return {std::atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1)), pitch, yaw};
 }
 
 UncertainSE3 compose(const UncertainSE3& a, const UncertainSE3& b) {

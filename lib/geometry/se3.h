@@ -28,6 +28,7 @@ struct SE3 {
 SE3 compose(const SE3& a, const SE3& b);  // a b
 SE3 inverse(const SE3& a);
 SE3 between(const SE3& a, const SE3& b);  // a^-1 b
+SE3 normalized(SE3 a);                    // its quaternion brought to unit length
 Eigen::Vector3d act(const SE3& a, const Eigen::Vector3d& point);
 
 // [v]x with [v]x w = v x w.
@@ -41,13 +42,23 @@ Vector6d log(const SE3& a);  // inverse of exp for a rotation below pi
 Eigen::Quaterniond exp_so3(const Eigen::Vector3d& rotation);
 Eigen::Vector3d log_so3(const Eigen::Quaterniond& q);
 
+// (translation, vector part of the quaternion), the coordinates of the errors and steps of g2o's
+// QUAT types: of q and -q the one with w >= 0, and back. A vector part longer than 1 belongs to no
+// unit quaternion: it turns by pi about that axis.
+Vector6d compact(const SE3& a);
+SE3 from_compact(const Vector6d& v);
+
+// Rotation before translation, as g2o's EXPMAP types have it, and back.
+Vector6d swapped(const Vector6d& v);
+Matrix6d swapped(const Matrix6d& m);
+
 // J^-1 with log(exp(v) exp(u)) = u + J^-1(u) v + O(v^2): the inverse left Jacobian (Barfoot 7.37
 // and 7.95).
 Eigen::Matrix3d inverse_left_jacobian_so3(const Eigen::Vector3d& rotation);
 Matrix6d inverse_left_jacobian(const Vector6d& tangent);
 
-// R = Rz(yaw) Ry(pitch) Rx(roll); angles in radians. At pitch = +-pi/2 only roll -+ yaw is
-// determined: yaw becomes 0.
+// R = Rz(yaw) Ry(pitch) Rx(roll); angles in radians, of a quaternion of unit length. Near pitch =
+// +-pi/2, where only roll -+ yaw is determined, they are split so that the rotation is the same.
 Eigen::Quaterniond from_roll_pitch_yaw(double roll, double pitch, double yaw);
 Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q);
 

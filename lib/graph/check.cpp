@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
+#include "lib/geometry/triangle.h"
 #include "lib/graph/components.h"
 #include "lib/text/words.h"
 
@@ -35,16 +35,6 @@ void check_quaternion(Offset line, const Numbers& numbers, Findings& findings) {
   }
 }
 
-// The matrix with this upper triangle, row by row.
-Eigen::MatrixXd symmetric(std::span<const double> upper, Index dim) {
-  Eigen::MatrixXd matrix(dim, dim);
-  std::size_t k = 0;
-  for (Index i = 0; i < dim; ++i) {
-    for (Index j = i; j < dim; ++j) matrix(i, j) = matrix(j, i) = upper[k++];
-  }
-  return matrix;
-}
-
 bool semidefinite(const Eigen::MatrixXd& matrix) {
   if (Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success) return true;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
@@ -60,15 +50,15 @@ void check_information(const Graph& graph, Index e, Numbers numbers, Findings& f
   const Index measurement = repeats * type.measurement;
   const std::int64_t dim = type.counted ? measurement : type.dim;
   const auto given = static_cast<std::int64_t>(numbers.size()) - measurement;
-  if (dim == 0 || given < dim * (dim + 1) / 2) return;
+  if (dim == 0 || given < triangle_size(dim)) return;
   double* const w = numbers.data() + measurement;
   if (type.tag == "EDGE2") {  // 11 12 22 33 13 23: TORO's own order
     std::swap(w[2], w[4]);
     std::swap(w[3], w[5]);
     std::swap(w[3], w[4]);
   }
-  const auto size = static_cast<std::size_t>(dim * (dim + 1) / 2);
-  if (!semidefinite(symmetric({w, size}, static_cast<Index>(dim)))) {
+  const auto size = static_cast<std::size_t>(triangle_size(dim));
+  if (!semidefinite(symmetric<Eigen::MatrixXd>({w, size}, dim))) {
     findings.push_back({graph.edge_line[e], true,
                         "the information matrix of " + type.tag + " is not positive semidefinite"});
   }

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "lib/text/error.h"
-#include "lib/text/words.h"
+#include "lib/text/line.h"
 
 namespace sg {
 namespace {
@@ -16,7 +16,7 @@ void parse_rest(const Graph& graph, Offset line, std::string_view rest,
     const auto word = next_word(rest);
     if (word.empty()) return;
     const auto value = parse<double>(word);
-    if (!value) throw error_at(graph, line, "'" + std::string(word) + "' is not a number");
+    if (!value) throw error_at(graph, line, quoted(word) + " is not a number");
     numbers.push_back(*value);
   }
 }
@@ -42,8 +42,8 @@ std::optional<Index> find_vertex(const Graph& graph, Id id) {
 }
 
 std::string_view line_at(const Graph& graph, Offset line) {
-  const auto rest = graph.text.view.substr(static_cast<std::size_t>(line));
-  return rest.substr(0, rest.find('\n'));
+  auto rest = graph.text.view.substr(static_cast<std::size_t>(line));
+  return next_line(rest);
 }
 
 std::size_t line_number(const Graph& graph, Offset line) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "lib/geometry/numbers.h"
 #include "lib/text/error.h"
 
 namespace sg {
@@ -16,7 +17,8 @@ Index pose_count(const PoseIndex& poses) {
 SE3 estimate(const Graph& graph, Index v) {
   std::vector<double> n;
   vertex_numbers(graph, v, n);
-  return {Eigen::Quaterniond(n.at(6), n.at(3), n.at(4), n.at(5)).normalized(), {n[0], n[1], n[2]}};
+  if (n.size() < 7) throw error_at(graph, graph.vertex_line[v], "a pose wants x y z qx qy qz qw");
+  return normalized(se3(n.data()));
 }
 
 // Throws unless all edges of step k can be composed, and fused if there are several.

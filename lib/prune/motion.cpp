@@ -1,31 +1,18 @@
 #include "lib/prune/motion.h"
 
 #include <Eigen/QR>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "lib/geometry/information.h"
+#include "lib/geometry/numbers.h"
+#include "lib/geometry/triangle.h"
 #include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {
 
 using Eigen::Matrix3d;
-
-// The rows of an upper triangle as a symmetric matrix.
-template <int N>
-Eigen::Matrix<double, N, N> symmetric(const double* upper) {
-  Eigen::Matrix<double, N, N> matrix;
-  for (int i = 0; i < N; ++i) {
-    for (int j = i; j < N; ++j) matrix(i, j) = matrix(j, i) = *upper++;
-  }
-  return matrix;
-}
-
-SE3 se3(const std::vector<double>& n) {
-  return {Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized(), {n[0], n[1], n[2]}};
-}
 
 // z^-1 x as the error vector of the type, and its derivative by a small motion d of x: x -> x d.
 struct Residual2 {
@@ -47,7 +34,7 @@ Residual3 residual(const SE3& z, const SE3& x) {
   SE3 e = between(z, x);
   if (e.q.w() < 0) e.q.coeffs() *= -1;
   Residual3 result{Vector6d::Zero(), Matrix6d::Zero()};
-  result.error << e.t, e.q.vec();
+  result.error = compact(e);
   result.jacobian.topLeftCorner<3, 3>() = e.q.toRotationMatrix();
   result.jacobian.bottomRightCorner<3, 3>() = e.q.w() * Matrix3d::Identity() + skew(e.q.vec());
   return result;
@@ -58,9 +45,7 @@ SE2 small_motion(const Eigen::Vector3d& d) {
   return {d[0], d[1], wrap(d[2])};
 }
 SE3 small_motion(const Vector6d& d) {
-  const double square = d.tail<3>().squaredNorm();
-  Eigen::Quaterniond q(std::sqrt(std::max(0.0, 1 - square)), d[3], d[4], d[5]);
-  return {q.normalized(), d.head<3>()};
+  return normalized(from_compact(d));
 }
 
 constexpr int fusion_steps = 10;
@@ -87,14 +72,6 @@ Uncertain fuse_local(const std::vector<Motion>& motions) {
   return result;
 }
 
-// Blocks in the other order: (rotation, translation) from (translation, rotation) and back.
-Matrix6d swapped(const Matrix6d& m) {
-  Matrix6d result;
-  result << m.bottomRightCorner<3, 3>(), m.bottomLeftCorner<3, 3>(), m.topRightCorner<3, 3>(),
-      m.topLeftCorner<3, 3>();
-  return result;
-}
-
 // The error e of C = z^-1 is, in the world frame, log(X1 x z^-1 X1^-1); the unknown moves by x ->
 // X1^-1 exp(d) X1 x.
 ExpmapMotion fuse_world(const std::vector<Motion>& motions, const SE3& first_pose) {
@@ -118,24 +95,14 @@ ExpmapMotion fuse_world(const std::vector<Motion>& motions, const SE3& first_pos
   return result;
 }
 
-void append(std::string& text, double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  text += ' ';
-  text.append(digits.data(), end);
-}
-
-void append(std::string& text, const SE3& x) {
-  for (double value : {x.t.x(), x.t.y(), x.t.z(), x.q.x(), x.q.y(), x.q.z(), x.q.w()}) {
-    append(text, value);
-  }
-}
-
-template <class Matrix>
-void append_upper(std::string& text, const Matrix& m) {
-  for (int i = 0; i < m.rows(); ++i) {
-    for (int j = i; j < m.cols(); ++j) append(text, m(i, j));
-  }
+template <class Measured>
+std::string edge_text(std::string_view tag, const Measured& z, Id first, Id second) {
+  std::string text(tag);
+  append_number(text, first);
+  append_number(text, second);
+  append_numbers(text, numbers_of(z.mean));
+  append_numbers(text, upper_triangle(z.information));
+  return text;
 }
 
 }  // namespace
@@ -151,9 +118,12 @@ std::optional<Motion> motion(const Graph& graph, Index e) {
   edge_numbers(graph, e, n);
   const std::size_t needed = tag == "EDGE_SE2" ? 9 : 28;
   if (n.size() < needed) throw error_at(graph, graph.edge_line[e], tag + " lacks numbers");
-  if (tag == "EDGE_SE2") return UncertainSE2{{n[0], n[1], n[2]}, symmetric<3>(n.data() + 3)};
-  if (tag == "EDGE_SE3:QUAT") return UncertainSE3{se3(n), symmetric<6>(n.data() + 7)};
-  return ExpmapMotion{se3(n), symmetric<6>(n.data() + 7)};
+  if (tag == "EDGE_SE2")
+    return UncertainSE2{se2(n.data()), symmetric<Matrix3d>(std::span(n).subspan(3))};
+  const SE3 mean = normalized(se3(n.data()));
+  const Matrix6d information = symmetric<Matrix6d>(std::span(n).subspan(7));
+  if (tag == "EDGE_SE3:QUAT") return UncertainSE3{mean, information};
+  return ExpmapMotion{mean, information};
 }
 
 Motion compose(const Motion& first, const Motion& second) {
@@ -193,23 +163,11 @@ double angle(const Motion& motion) {
 }
 
 std::string edge_text(const Motion& motion, Id first, Id second) {
-  const std::string ids = ' ' + std::to_string(first) + ' ' + std::to_string(second);
-  std::string text;
-  if (const auto* a = std::get_if<UncertainSE2>(&motion)) {
-    text = "EDGE_SE2" + ids;
-    for (double value : {a->mean.x, a->mean.y, a->mean.theta}) append(text, value);
-    append_upper(text, a->information);
-  } else if (const auto* b = std::get_if<UncertainSE3>(&motion)) {
-    text = "EDGE_SE3:QUAT" + ids;
-    append(text, b->mean);
-    append_upper(text, b->information);
-  } else {
-    const auto& c = std::get<ExpmapMotion>(motion);
-    text = "EDGE_SE3:EXPMAP" + ids;
-    append(text, c.mean);
-    append_upper(text, c.information);
-  }
-  return text;
+  if (const auto* a = std::get_if<UncertainSE2>(&motion))
+    return edge_text("EDGE_SE2", *a, first, second);
+  if (const auto* a = std::get_if<UncertainSE3>(&motion))
+    return edge_text("EDGE_SE3:QUAT", *a, first, second);
+  return edge_text("EDGE_SE3:EXPMAP", std::get<ExpmapMotion>(motion), first, second);
 }
 
 }  // namespace sg

@@ -1,5 +1,4 @@
-// The bytes of a graph file, held once: a mapped file or a buffer. Everything else points into
-// them.
+// The bytes of a file, held once: a mapped file or a buffer. Everything else points into them.
 #pragma once
 
 #include <memory>
@@ -19,5 +18,12 @@ inline Text text_of(std::string bytes) {
   const std::string_view view = *owner;
   return {std::move(owner), view};
 }
+
+// The bytes of a file ("-": standard input), unpacked if they are gzip or zstd. A regular file is
+// mapped, not copied. Throws an input Error for what cannot be opened or read.
+Text read_text(const std::string& path);
+
+// What messages call a path: itself, "-" <stdin>.
+std::string input_name(const std::string& path);
 
 }  // namespace sg

@@ -1,15 +1,27 @@
-// Words of a line. Blanks, tabs, and the carriage return of a CRLF line separate them.
+// The lines of a text and the words of a line, read and written; a word may be a number. Blanks,
+// tabs, and the carriage return of a CRLF line separate words.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace sg {
 
 constexpr bool is_blank(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
+}
+
+// Takes the next line off the front of `text`, without its newline.
+inline std::string_view next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
 }
 
 // Takes the next word off the front of `line`; empty at its end.
@@ -72,6 +84,28 @@ inline bool take_plain_number(std::string_view& line) {
   if (digits == 0 || digits > 300 || (p != end && !is_blank(*p))) return false;
   line = {p, static_cast<std::size_t>(end - p)};
   return true;
+}
+
+inline void append_word(std::string& out, std::string_view word) {
+  out += ' ';
+  out += word;
+}
+
+// " 0.5": a blank and the shortest text that reads back as the same number.
+template <class Number>
+void append_number(std::string& out, Number number) {
+  char text[32] = {' '};
+  out.append(text, std::to_chars(text + 1, text + sizeof text, number).ptr);
+}
+inline void append_numbers(std::string& out, std::span<const double> numbers) {
+  for (const double number : numbers) append_number(out, number);
+}
+
+// The same without the blank.
+inline std::string format_number(double number) {
+  std::string text;
+  append_number(text, number);
+  return text.substr(1);
 }
 
 }  // namespace sg

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lib/geometry/triangle.h"
 #include "lib/text/error.h"
 
 namespace sg {
@@ -147,11 +148,7 @@ Matrix6d world_information(const PoseNoise& noise, const SE3& end) {
   local.head<3>().setConstant(1 / (noise.translation * noise.translation));
   local.tail<3>().setConstant(1 / (noise.rotation * noise.rotation));
   const Matrix6d back = adjoint(inverse(end));
-  const Matrix6d information = back.transpose() * local.asDiagonal() * back;
-  Matrix6d swapped;
-  swapped << information.bottomRightCorner<3, 3>(), information.bottomLeftCorner<3, 3>(),
-      information.topRightCorner<3, 3>(), information.topLeftCorner<3, 3>();
-  return swapped;
+  return swapped(Matrix6d(back.transpose() * local.asDiagonal() * back));
 }
 
 void odometry_line(const LandmarkGraph& graph, Index k, const SE2& z, Out& out) {
@@ -165,11 +162,8 @@ void odometry_line(const LandmarkGraph& graph, Index k, const SE3& z, Out& out) 
   numbers(out, z);
   const Matrix6d information = world_information(graph.odometry_noise, true_pose<SE3>(graph, k));
   const double nothing = 1e-12 * information.diagonal().maxCoeff();  // rounding, not information
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) {
-      const double x = information(i, j);
-      significant(out, std::abs(x) < nothing ? 0 : x);
-    }
+  for (const double x : upper_triangle(information)) {
+    significant(out, std::abs(x) < nothing ? 0 : x);
   }
   end_line(out);
 }

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "lib/geometry/numbers.h"
+
 namespace sg {
 namespace {
 
@@ -55,15 +57,11 @@ SE3 disturbed(const SE3& z, const PoseNoise& noise, Random& random) {
 }
 
 void numbers(Out& out, const SE2& pose) {
-  number(out, pose.x);
-  number(out, pose.y);
-  number(out, pose.theta);
+  for (const double x : numbers_of(pose)) number(out, x);
 }
 
 void numbers(Out& out, const SE3& pose) {
-  const SE3 written = rounded(pose);
-  for (double x : written.t) number(out, x);
-  for (double x : written.q.coeffs()) number(out, x);
+  for (const double x : numbers_of(rounded(pose))) number(out, x);
 }
 
 void diagonal_information(Out& out, const double* diagonal, int size) {

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "lib/text/words.h"
+
 namespace sg {
 namespace {
 
@@ -31,18 +33,12 @@ void tag(Out& out, std::string_view tag) {
 }
 
 void id(Out& out, Id id) {
-  char text[24] = {' '};
-  char* const end = std::to_chars(text + 1, text + sizeof text, id).ptr;
-  out.buffer.append(text, end);
+  append_number(out.buffer, id);
 }
 
 void number(Out& out, double number) {
+  if (!(std::abs(number) < largest)) return append_number(out.buffer, number);
   char text[40] = {' '};
-  if (!(std::abs(number) < largest)) {
-    char* const end = std::to_chars(text + 1, text + sizeof text, number).ptr;
-    out.buffer.append(text, end);
-    return;
-  }
   std::int64_t units = std::llround(number * grid);
   char* at = text + 1;
   if (units < 0) *at++ = '-', units = -units;

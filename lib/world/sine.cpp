@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {
@@ -46,14 +49,19 @@ std::vector<SE2> path_poses(const Sine& world) {
   return poses;
 }
 
+Index landmark_count(const Sine& world, double area) {
+  if (world.landmarks > 0) return world.landmarks;
+  const double count = std::round(world.density * area);
+  if (!(count <= std::numeric_limits<Index>::max()))
+    throw computation_error("more landmarks than a graph can hold");
+  return static_cast<Index>(count);
+}
+
 // Uniform in the slab, by ascending x.
 std::vector<Eigen::Vector3d> scattered_landmarks(const Sine& world, double end) {
   const double from = -world.optics.range, to = end + world.optics.range;
-  const double area = (to - from) * 2 * world.width;
-  const auto count =
-      world.landmarks > 0 ? world.landmarks : static_cast<Index>(std::lround(world.density * area));
   Random random = random_stream(world.seed, Stream::structure);
-  std::vector<Eigen::Vector3d> landmarks(count);
+  std::vector<Eigen::Vector3d> landmarks(landmark_count(world, (to - from) * 2 * world.width));
   for (auto& l : landmarks) {
     l.x() = rounded(uniform(random, from, to));
     l.y() = rounded(uniform(random, -world.width, world.width));

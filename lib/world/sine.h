@@ -27,8 +27,8 @@ struct Sine {
   std::uint64_t seed = 1;
 };
 
-//  Time and memory are linear in the length
-// of the path.
+// Time and memory are linear in the length of the path. Throws a computation Error where the slab
+// wants more landmarks than a graph can hold.
 LandmarkGraph sine(const Sine& world);
 
 }  // namespace sg

@@ -330,6 +330,14 @@ TEST_CASE("estimates go to text and back", "[factor]") {
   const Graph graph = graph_of("VERTEX_SE2 0 0.1 -1e-300 3\nEDGE_PRIOR_SE2_XY 0 0 0 1 0 1\n");
   const Problem problem = make_problem(graph);
   CHECK(estimate_text(problem, file_values(problem), 0) == "0.1 -1e-300 3");
+  CHECK(vertex_line(problem, file_values(problem), 0) == "VERTEX_SE2 0 0.1 -1e-300 3\n");
+}
+
+TEST_CASE("a file without VERTEX lines gives no estimates", "[factor]") {
+  const Graph graph = graph_of("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
+  const Problem problem = make_problem(graph);
+  CHECK_THROWS_AS(file_values(problem), Error);
+  CHECK(start_values(problem) == Values{0, 0, 0, 1, 0, 0});
 }
 
 TEST_CASE("what cannot be solved is said with its line", "[factor]") {

@@ -1,10 +1,13 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "lib/geometry/information.h"
+#include "lib/geometry/numbers.h"
 #include "lib/geometry/se2.h"
 #include "lib/geometry/se3.h"
+#include "lib/geometry/triangle.h"
 #include "tests/unit/common.h"
 
 using namespace sg;
@@ -145,7 +148,7 @@ TEST_CASE("angles are wrapped to (-pi, pi]", "[geometry]") {
 }
 
 TEST_CASE("SE(2) follows its matrices", "[geometry]") {
-  Random random(1);
+  Random random(11);
   for (int trial = 0; trial < 50; ++trial) {
     const SE2 a = random_se2(random), b = random_se2(random);
     check_group(a, b);
@@ -159,7 +162,7 @@ TEST_CASE("SE(2) follows its matrices", "[geometry]") {
 }
 
 TEST_CASE("SE(3) follows its matrices", "[geometry]") {
-  Random random(2);
+  Random random(12);
   for (int trial = 0; trial < 50; ++trial) {
     const SE3 a = random_se3(random), b = random_se3(random);
     check_group(a, b);
@@ -173,7 +176,7 @@ TEST_CASE("SE(3) follows its matrices", "[geometry]") {
 }
 
 TEST_CASE("the inverse left Jacobian is the derivative of log", "[geometry]") {
-  Random random(3);
+  Random random(13);
   for (double size : {1.2, 0.1, 4e-3}) {
     const Vector6d u = random_vector<6>(random, size);
     const Matrix6d J = inverse_left_jacobian(u);
@@ -187,22 +190,87 @@ TEST_CASE("the inverse left Jacobian is the derivative of log", "[geometry]") {
 }
 
 TEST_CASE("roll, pitch and yaw go there and back", "[geometry]") {
-  Random random(4);
+  Random random(14);
   for (int trial = 0; trial < 50; ++trial) {
     const Vector3d angles(uniform(random, -pi, pi), uniform(random, -pi / 2, pi / 2),
                           uniform(random, -pi, pi));
     const auto q = from_roll_pitch_yaw(angles[0], angles[1], angles[2]);
     CHECK(roll_pitch_yaw(q).isApprox(angles, 1e-9));
   }
-  for (double pitch : {pi / 2, -pi / 2}) {
+  for (double pitch : {pi / 2, pi / 2 - 1e-9, -pi / 2, -pi / 2 + 1e-12}) {
     const auto q = from_roll_pitch_yaw(0.3, pitch, 0.5);
     const Vector3d angles = roll_pitch_yaw(q);
     CHECK(from_roll_pitch_yaw(angles[0], angles[1], angles[2]).angularDistance(q) < 1e-7);
   }
 }
 
-TEST_CASE("uncertainty propagates to first order", "[geometry]") {
+TEST_CASE("roll, pitch and yaw turn about the fixed axes x, y and z in this order", "[geometry]") {
+  const Matrix3d turned = from_roll_pitch_yaw(pi / 2, 0, pi / 2).toRotationMatrix();
+  CHECK((turned * Vector3d::UnitY() - Vector3d::UnitZ()).norm() < 1e-15);
+  CHECK((turned * Vector3d::UnitX() - Vector3d::UnitY()).norm() < 1e-15);
+  const Matrix3d pitched = from_roll_pitch_yaw(0, pi / 2, 0).toRotationMatrix();
+  CHECK((pitched * Vector3d::UnitX() + Vector3d::UnitZ()).norm() < 1e-15);
+}
+
+TEST_CASE("compact coordinates go there and back", "[geometry]") {
   Random random(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    SE3 a = random_se3(random);
+    const Vector6d v = compact(a);
+    CHECK(v.head<3>() == a.t);
+    CHECK(matrix(from_compact(v)).isApprox(matrix(a), 1e-12));
+    a.q.coeffs() *= -1;  // the same rotation
+    CHECK(compact(a) == v);
+  }
+  Vector6d long_one;
+  long_one << 1, 2, 3, 0, 0, 4;
+  const SE3 half_turn = from_compact(long_one);
+  CHECK(half_turn.q.coeffs() == Eigen::Vector4d(0, 0, 1, 0));
+  CHECK(half_turn.t == Vector3d(1, 2, 3));
+}
+
+TEST_CASE("swapping puts the rotation first, and back", "[geometry]") {
+  Random random(6);
+  const Vector6d v = random_vector<6>(random);
+  const Matrix6d m = random_information<6>(random);
+  CHECK(swapped(v).head<3>() == v.tail<3>());
+  CHECK(swapped(swapped(v)) == v);
+  CHECK(swapped(swapped(m)) == m);
+  CHECK(Vector6d(swapped(m) * swapped(v)).isApprox(swapped(Vector6d(m * v)), 1e-14));
+}
+
+TEST_CASE("motions and their numbers", "[geometry]") {
+  const double numbers[] = {1, 2, 3, 0.1, 0.2, 0.3, 0.4};
+  const SE3 a = se3(numbers);
+  CHECK(a.t == Vector3d(1, 2, 3));
+  CHECK(a.q.w() == 0.4);
+  CHECK(a.q.vec() == Vector3d(0.1, 0.2, 0.3));
+  CHECK(std::ranges::equal(numbers_of(a), numbers));
+  CHECK(normalized(a).q.isApprox(a.q.normalized()));
+  CHECK(normalized(a).t == a.t);
+  double back[7] = {};
+  set_se3(a, back);
+  CHECK(std::ranges::equal(back, numbers));
+  set_se2(se2(numbers + 1), back);
+  CHECK(std::vector(back, back + 3) == std::vector{2.0, 3.0, 0.1});
+}
+
+TEST_CASE("a triangle is the upper one, row by row", "[geometry]") {
+  std::array<double, 6> triangle{};
+  std::iota(triangle.begin(), triangle.end(), 1.0);
+  const Matrix3d expected{{1, 2, 3}, {2, 4, 5}, {3, 5, 6}};
+  CHECK(symmetric<Matrix3d>(triangle) == expected);
+  CHECK(symmetric<Eigen::MatrixXd>(triangle, 3) == expected);
+  CHECK(symmetric<Eigen::MatrixXd>(triangle, 2) == Eigen::Matrix2d{{1, 2}, {2, 3}});
+  CHECK(upper_triangle(expected) == triangle);
+  CHECK(triangle_size(6) == 21);
+  CHECK_FALSE(is_diagonal(triangle, 3));
+  CHECK(is_diagonal(std::array{1.0, 0.0, 0.0, 2.0, 0.0, 3.0}, 3));
+  CHECK_FALSE(is_diagonal(std::array{1.0, 0.0, 0.0, 2.0, 1e-300, 3.0}, 3));
+}
+
+TEST_CASE("uncertainty propagates to first order", "[geometry]") {
+  Random random(15);
   for (int trial = 0; trial < 20; ++trial) {
     check_propagation<3>(UncertainSE2{random_se2(random), random_information<3>(random)},
                          UncertainSE2{random_se2(random), random_information<3>(random)});

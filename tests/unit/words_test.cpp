@@ -1,9 +1,15 @@
 // The quick ways through a line agree with the slow one.
 #include "lib/text/words.h"
 
+#include <array>
+#include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
+#include "lib/text/line.h"
 #include "tests/unit/common.h"
 
 using namespace sg;
@@ -69,4 +75,69 @@ TEST_CASE("plain numbers are taken quickly, others are left to conversion", "[wo
   const std::string huge(400, '9');  // not finite: conversion says so
   std::string_view line = huge;
   CHECK_FALSE(take_plain_number(line));
+}
+
+TEST_CASE("lines are taken one by one", "[words]") {
+  const auto lines = [](std::string_view text) {
+    std::vector<std::string> result;
+    while (!text.empty()) result.emplace_back(next_line(text));
+    return result;
+  };
+  CHECK(lines("").empty());
+  CHECK(lines("a") == std::vector<std::string>{"a"});
+  CHECK(lines("a\n") == std::vector<std::string>{"a"});
+  CHECK(lines("\n\na b\r\nc") == std::vector<std::string>{"", "", "a b\r", "c"});
+}
+
+TEST_CASE("a number is written in the shortest text that reads back", "[words]") {
+  CHECK(format_number(0.1) == "0.1");
+  CHECK(format_number(-0.0) == "-0");
+  CHECK(format_number(1e22) == "1e+22");
+  CHECK(format_number(-2.2250738585072014e-308) == "-2.2250738585072014e-308");
+  std::string out = "TAG";
+  append_number(out, std::numeric_limits<std::int64_t>::min());
+  append_numbers(out, std::array{0.5, -1.0});
+  append_word(out, "end");
+  CHECK(out == "TAG -9223372036854775808 0.5 -1 end");
+  Random random(3);
+  for (int trial = 0; trial < 100'000; ++trial) {
+    const auto bits = std::uint64_t{random_bits()} << 32 | random_bits();
+    const auto number = std::bit_cast<double>(bits);
+    if (std::isfinite(number)) REQUIRE(parse<double>(format_number(number)) == number);
+  }
+}
+
+TEST_CASE("a defect of a line is said in its words", "[words]") {
+  const auto defect = [](std::string_view line, const auto& read) -> std::string {
+    try {
+      read(line);
+    } catch (const BadLine& bad) {
+      return bad.cause;
+    }
+    return "";
+  };
+  const auto id = [](std::string_view& rest) { read_id(rest, "a vertex id"); };
+  CHECK(defect("9223372036854775807", id).empty());
+  CHECK(defect("9223372036854775808", id) ==
+        "'9223372036854775808' is beyond 64 bits, too large for a vertex id");
+  CHECK(defect(" \r", id) == "the line ends before a vertex id");
+  CHECK(defect("-1", id) == "'-1' is not a vertex id");
+  CHECK(defect("1.5", id) == "'1.5' is not a vertex id");
+  const auto number = [](std::string_view& rest) { read_number(rest); };
+  CHECK(defect("1e5", number).empty());
+  CHECK(defect("", number) == "the line ends before its last number");
+  CHECK(defect("1e5x", number) == "'1e5x' is not a number");
+  CHECK(defect("a\x01" + std::string(50, 'b'), number) ==
+        "'a?" + std::string(38, 'b') + "...' is not a number");
+  CHECK(defect(" \t\r", expect_end).empty());
+  CHECK(defect("2 3", expect_end) == "'2' stands where the line should end");
+}
+
+TEST_CASE("numbers are copied as they are written", "[words]") {
+  std::string_view rest = " 1.50  +2e0 -.5 x";
+  std::string out;
+  copy_numbers(rest, 3, out);
+  CHECK(out == " 1.50 +2e0 -.5");
+  CHECK(rest == " x");
+  CHECK_THROWS_AS(copy_numbers(rest, 1, out), BadLine);
 }

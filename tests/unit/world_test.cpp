@@ -219,6 +219,17 @@ TEST_CASE("the noise of worst is what its information claims", "[world]") {
   }
 }
 
+TEST_CASE("a world that no graph can hold is refused before it is made", "[world]") {
+  sg::Sine dense;
+  dense.density = 1e9;
+  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
+  dense.density = 1e300;
+  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
+  sg::Worst large;
+  large.poses = large.landmarks = 100'000;
+  CHECK_THROWS_AS(sg::worst(large), sg::Error);
+}
+
 TEST_CASE("the noise of the other worlds is what their information claims", "[world]") {
   check_noise(sg::manhattan({.poses = 1000}));
   check_noise(sg::city({.poses = 1000}));

@@ -1,6 +1,10 @@
-// Estimates and measurements as flat numbers, seen as geometry. The orders are those of the file
-// format: (x, y, theta) and (x, y, z, qx, qy, qz, qw).
+// Motions and points as flat numbers, in the order of the file format: (x, y, theta) and (x, y, z,
+// qx, qy, qz, qw). Nothing is normalized on the way: text rounds quaternions, and `normalized`
+// (se3.h) brings one to unit length where that is meant.
 #pragma once
+
+#include <algorithm>
+#include <array>
 
 #include "lib/geometry/se2.h"
 #include "lib/geometry/se3.h"
@@ -19,14 +23,18 @@ inline SE2 se2(const double* x) {
 inline SE3 se3(const double* x) {
   return {Eigen::Quaterniond(x[6], x[3], x[4], x[5]), vector3(x)};
 }
+
+inline std::array<double, 3> numbers_of(const SE2& a) {
+  return {a.x, a.y, a.theta};
+}
+inline std::array<double, 7> numbers_of(const SE3& a) {
+  return {a.t.x(), a.t.y(), a.t.z(), a.q.x(), a.q.y(), a.q.z(), a.q.w()};
+}
 inline void set_se2(const SE2& a, double* x) {
-  x[0] = a.x;
-  x[1] = a.y;
-  x[2] = a.theta;
+  std::ranges::copy(numbers_of(a), x);
 }
 inline void set_se3(const SE3& a, double* x) {
-  Eigen::Map<Eigen::Vector3d>{x} = a.t;
-  Eigen::Map<Eigen::Vector4d>{x + 3} = a.q.coeffs();
+  std::ranges::copy(numbers_of(a), x);
 }
 
 }  // namespace sg

@@ -1,5 +1,7 @@
-// Where the bytes of a graph come from: a mapped file, standard input, or either of them
+// Where the bytes of a file come from: a mapped file, standard input, or either of them
 // compressed.
+#include "lib/text/text.h"
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -23,7 +25,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "formats/formats.h"
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {
@@ -130,6 +132,10 @@ Text read_path(const std::string& path) {
 }
 
 }  // namespace
+
+std::string input_name(const std::string& path) {
+  return path == "-" ? "<stdin>" : path;
+}
 
 Text read_text(const std::string& path) {
   if (path == "-") return unpacked(drain(STDIN_FILENO, input_name(path)), input_name(path));

@@ -1,0 +1,30 @@
+// The translation of a text line by line: from a foreign format to g2o text, and from a graph's g2o
+// text to a foreign format.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "formats/formats.h"
+#include "formats/write.h"
+
+namespace sg {
+
+// Appends a line's translation without its newline.
+using TranslateLine = std::function<void(std::string_view line, std::string& out)>;
+
+// The translation of every line of `text`, one line for one line. What `translate` throws as
+// BadLine goes to `complaint`, and the line becomes empty.
+std::string translate_lines(std::string_view text, const std::string& file,
+                            const Complaint& complaint, const TranslateLine& translate);
+
+// Writes what `translate` makes of every line of a graph, in order. A line that it translates to
+// nothing is left out; comments stay. What it throws as BadLine becomes an input Error.
+void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink);
+
+// Calls `look` with the tag of every line that has one and is neither comment nor FIX, until it
+// returns true. How a format is told by content.
+void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look);
+
+}  // namespace sg

@@ -1,0 +1,36 @@
+// Reading a line that may have a defect: every function takes words off the front of `rest`, the
+// rest of the line, or says what is wrong with them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "lib/text/words.h"
+
+namespace sg {
+
+// A line that has a defect: caught line by line, so that reading can go on.
+struct BadLine {
+  std::string cause;
+};
+
+// The word in quotes as a message shows it: cut to a length that fits a line, without control
+// characters.
+std::string quoted(std::string_view word);
+
+// `what` names the id in the BadLine of one that is missing, no whole number of 0 or more, or
+// beyond 64 bits.
+std::int64_t read_id(std::string_view& rest, std::string_view what);
+
+// BadLine if the number is missing or none.
+double read_number(std::string_view& rest);
+// `count` numbers, appended as they are written: those that a translation does not change.
+void copy_numbers(std::string_view& rest, int count, std::string& out);
+// One of them.
+std::string_view read_number_text(std::string_view& rest);
+
+// BadLine unless nothing but blanks is left.
+void expect_end(std::string_view rest);
+
+}  // namespace sg
