@@ -101,7 +101,7 @@ TEST_CASE("a number is written in the shortest text that reads back", "[words]")
   CHECK(out == "TAG -9223372036854775808 0.5 -1 end");
   Random random(3);
   for (int trial = 0; trial < 100'000; ++trial) {
-    const auto bits = std::uint64_t{random_bits()} << 32 | random_bits();
+    const auto bits = std::uint64_t{random()} << 32 | random();
     const auto number = std::bit_cast<double>(bits);
     if (std::isfinite(number)) REQUIRE(parse<double>(format_number(number)) == number);
   }
