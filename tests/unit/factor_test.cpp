@@ -85,13 +85,17 @@ void check_jacobian(const Instance& instance) {
                   {instance.U.data(), instance.diagonal}, block.data());
   Eigen::Map<Eigen::MatrixXd> columns(block.data(), model.dim, max_block / model.dim);
   int column = 0;
-  const double h = 1e-6;
   for (int end = 0; end < model.arity; ++end) {
     for (int axis = 0; axis < space_dim(model.ends[end]); ++axis, ++column) {
-      const Eigen::VectorXd slope =
-          (error_after(instance, end, axis, h) - error_after(instance, end, axis, -h)) / (2 * h);
+      const auto slope = [&](double h) -> Eigen::VectorXd {
+        return (error_after(instance, end, axis, h) - error_after(instance, end, axis, -h)) /
+               (2 * h);
+      };
+      // Close to a camera's plane errors bend so much that the difference of two steps says how far to trust either.
+      const Eigen::VectorXd expected = slope(1e-6);
+      const double doubt = (slope(2e-6) - expected).norm();
       INFO(model.tag << " end " << end << " axis " << axis);
-      CHECK((columns.col(column) - slope).norm() < 1e-7 * (1 + slope.norm()));
+      CHECK((columns.col(column) - expected).norm() < 1e-7 * (1 + expected.norm()) + doubt);
     }
   }
   CHECK((columns.col(column) + error(instance)).norm() < 1e-12 * (1 + error(instance).norm()));

@@ -134,7 +134,7 @@ void check_propagation(const Uncertain& a, const Uncertain& b) {
 
 }  // namespace
 
-TEST_CASE("angles are wrapped to (-pi, pi]", "[geometry]") {
+TEST_CASE("angles are wrapped to above -pi and up to pi", "[geometry]") {
   CHECK(wrap(0.5) == 0.5);
   CHECK(wrap(pi) == pi);
   CHECK(wrap(-pi) == pi);

@@ -203,7 +203,7 @@ TEST_CASE("without relaxing thresholds, replay ends at batch's optimum", "[isam2
   }
 }
 
-TEST_CASE("skip 0 never relinearizes; a threshold of 0 does at once", "[isam2]") {
+TEST_CASE("skip 0 never relinearizes, a threshold of 0 does at once", "[isam2]") {
   Random random(4);
   const sg::Graph graph = graph_of(random_walk(random, 40, false));
   const sg::Problem problem = sg::make_problem(graph);

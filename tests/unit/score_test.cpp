@@ -98,7 +98,7 @@ TEST_CASE("spanning trees weigh their edges", "[score]") {
         Approx(2 * std::log(a * b + b * c + c * a) + std::log(d * e + e * f + f * d)));
 }
 
-TEST_CASE("fixed vertices are one node; points do not rotate", "[score]") {
+TEST_CASE("fixed vertices are one node, points do not rotate", "[score]") {
   CHECK(log_trees(graph_of(text_of_graph(4, cycle(4)) + "FIX 0 2\n"), unit) == Approx(std::log(4)));
   const Graph point = graph_of(
       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_XY 2 0 0\n"
