@@ -2,97 +2,102 @@
 PRESET ?= release
 PREFIX ?= /usr/local
 WERROR ?=
-BUILD  := build/$(PRESET)
-BIN    := $(CURDIR)/$(BUILD)/bin
+BUILD   = build/$(PRESET)
+BIN     = $(CURDIR)/$(BUILD)/bin
 JOBS   ?= $(shell nproc)
 
 # Debian packages, by what they are for.
-BUILD_PACKAGES := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
+build_packages := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
 	libcairo2-dev libspectra-dev pkg-config
-TEST_PACKAGES  := catch2 bats python3 mandoc graphviz zstd gzip
-LINT_PACKAGES  := clang-format clang-tidy python3 mandoc git
-BENCH_PACKAGES := libbenchmark-dev
-FUZZ_PACKAGES  := clang libclang-rt-14-dev
-PLOT_PACKAGES  := gnuplot-nox graphviz
+test_packages  := catch2 bats python3 mandoc graphviz zstd gzip
+lint_packages  := clang-format clang-tidy python3 mandoc git
+bench_packages := libbenchmark-dev
+fuzz_packages  := clang libclang-rt-14-dev
+plot_packages  := gnuplot-nox graphviz
 
 .DEFAULT_GOAL := build
-.PHONY: help deps build demo check test mutants install bench fuzz paper orderings lint format clean
+.PHONY: help deps build demo check mutants install uninstall bench fuzz paper orderings lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
 
-# $(call need,PACKAGES): installs those that are missing, as root or through sudo, and says which.
-define need
-	@missing=""; for p in $(1); do \
-	  dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; done; \
+# Packages that are missing are named and installed, as root or through sudo. dpkg is asked once, and again when this file
+# changes; daily use asks nobody, nor does a machine without dpkg, where CMake says what it misses.
+build/packages/%: Makefile
+	@missing=$$(command -v dpkg-query >/dev/null && printf '%s\n' $($*_packages) | grep -vxF "$$( \
+	  dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $($*_packages) 2>/dev/null | sed -n 's/^installed //p')"); \
 	if [ -n "$$missing" ]; then \
 	  sudo=""; [ "$$(id -u)" = 0 ] || sudo=sudo; \
-	  echo "installing Debian packages:$$missing"; \
+	  echo "installing Debian packages:" $$missing; \
 	  $$sudo apt-get update -qq && \
 	  $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing >/dev/null; fi
-endef
+	@mkdir -p $(@D) && touch $@
 
 deps: ## install what building and testing need from Debian's packages
-	$(call need,$(BUILD_PACKAGES) $(TEST_PACKAGES))
+	@rm -rf build/packages
+	@$(MAKE) --no-print-directory build/packages/build build/packages/test
 
-# Anew every time, which takes a second: WERROR=ON|OFF then reaches a tree that stands already. The preset has a default.
-configure = cmake --preset $(PRESET) -G Ninja $(if $(WERROR),-DSGTOOLS_WERROR=$(WERROR)) >/dev/null
+# $(call configure,OPTIONS), anew every time, which takes half a second: WERROR=ON|OFF then reaches a tree that stands
+# already. The preset has a default. $(call build,TARGETS)
+configure = cmake --preset $(PRESET) -G Ninja $(if $(WERROR),-DSGTOOLS_WERROR=$(WERROR)) $(1) >/dev/null
+build = cmake --build $(BUILD) -j $(JOBS) --target $(1)
+# A new tree for commands alone does without the tests and their packages.
+commands_alone = $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DSGTOOLS_TESTS=OFF)
 
-build: deps ## build the commands and the tests (PRESET=dev|release|asan|tsan)
-	@$(configure)
-	@cmake --build $(BUILD) -j $(JOBS)
+build: build/packages/build ## build the commands (PRESET=dev|release|asan|tsan)
+	@$(call configure,$(commands_alone))
+	@$(call build,commands)
 
-demo: build ## generate | prune | reorder | score, as one table (GRAPHS="a.g2o b.g2o" adds yours)
+demo: build/packages/build ## generate | prune | reorder | score, as one table (GRAPHS="a.g2o b.g2o" adds yours)
+	@$(call configure,$(commands_alone))
+	@$(call build,sg-gen sg-kf sg-dec sg-rand sg-order sg-ec)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -f experiments/demo/Makefile GRAPHS="$(GRAPHS)"
 
-check: build test ## set up, build, and run every test
-
-test:
+check: build/packages/build build/packages/test ## build everything, and run every test
+	@$(call configure,-DSGTOOLS_TESTS=ON)
+	@$(call build,all)
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
-mutants: deps ## break the sources in 400 places, one at a time, and list what no test notices (MUTANTS="--sites 100")
+mutants: build/packages/build build/packages/test build/packages/lint ## break the sources in 400 places, one at a time, and list what no test notices
 	@nice tests/mutants/run --jobs $(JOBS) $(MUTANTS)
 
-install: build ## install commands, man pages, library and CMake package (PREFIX=...)
+install: build ## install commands, man pages, and the library for CMake and pkg-config (PREFIX=...)
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
-bench: deps ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
-	$(call need,$(BENCH_PACKAGES))
-	@$(configure) -DSGTOOLS_BENCH=ON
-	@cmake --build $(BUILD) -j $(JOBS) --target benchmarks
+uninstall: ## remove what make install put there
+	@cmake -DMANIFEST=$(BUILD)/install_manifest.txt -P cmake/uninstall.cmake
+
+bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
+	@$(call configure,$(commands_alone) -DSGTOOLS_BENCH=ON)
+	@$(call build,benchmarks)
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
 fuzz: PRESET := fuzz
-fuzz: deps ## fuzz every reader for 60 seconds under the sanitizers (FUZZ_SECONDS=60)
-	$(call need,$(FUZZ_PACKAGES))
-	@$(configure)
-	@cmake --build build/fuzz -j $(JOBS) --target fuzzers
+fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers (FUZZ_SECONDS=60)
+	@$(call configure,$(commands_alone))
+	@$(call build,fuzzers)
 	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
 
-paper: build ## reproduce every figure and table of the paper, into out/paper
-	$(call need,$(PLOT_PACKAGES))
+paper: build build/packages/plot ## reproduce every figure and table of the paper, into out/paper
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/paper OUT=$(CURDIR)/out/paper
 
-orderings: build ## every ordering on every graph, into out/orderings (GRAPHS="..." adds yours)
-	$(call need,$(PLOT_PACKAGES))
+orderings: build build/packages/plot ## every ordering on every graph, into out/orderings (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/orderings OUT=$(CURDIR)/out/orderings \
 	  GRAPHS="$(abspath $(GRAPHS))"
 
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-format: ## rewrite the sources in the project's style
-	$(call need,clang-format git)
+format: build/packages/lint ## rewrite the sources in the project's style
 	@clang-format -i $(SOURCES)
 
-lint: build ## check style, includes, sources and man pages
-	$(call need,$(LINT_PACKAGES))
+lint: build/packages/build build/packages/test build/packages/lint ## check style, includes, sources and man pages
+	@$(call configure,-DSGTOOLS_TESTS=ON)
 	@clang-format --dry-run --Werror $(SOURCES)
 	@tests/layers
 	@tests/lint_tests
 	@tests/pages
-	@printf '%s\n' $(filter %.cpp,$(SOURCES)) | grep -v '^tests/fuzz\|^tests/bench' | \
-	  xargs -P $(JOBS) -n 4 clang-tidy --quiet -p $(BUILD)
+	@tests/tidy $(BUILD) $(JOBS)
 
 clean: ## remove what was built
 	rm -rf build out

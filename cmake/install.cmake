@@ -1,18 +1,31 @@
-# Commands, man pages, the library with its headers, and a CMake package: find_package(sgtools), sgtools::sgtools.
+# Commands (cmd), man pages, the licence, and the library with its public headers: for CMake find_package(sgtools) and
+# sgtools::sgtools, for others pkg-config sgtools.
 include(CMakePackageConfigHelpers)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sgtools)
 
-install(TARGETS ${commands} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS sgtools EXPORT sgtools ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY lib formats DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sgtools FILES_MATCHING PATTERN "*.h")
 foreach(section 1 5 7)
   file(GLOB pages CONFIGURE_DEPENDS man/*.${section})
   install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section})
 endforeach()
-install(EXPORT sgtools NAMESPACE sgtools:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgtools
-        FILE sgtoolsTargets.cmake)
-configure_package_config_file(cmake/sgtoolsConfig.cmake.in ${CMAKE_BINARY_DIR}/sgtoolsConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgtools)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/sgtoolsConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/sgtoolsConfig.cmake ${CMAKE_BINARY_DIR}/sgtoolsConfigVersion.cmake
-  cmake/FindSuiteSparse.cmake cmake/FindMetis.cmake cmake/FindScotch.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgtools)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(TARGETS sgtools EXPORT sgtools ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+set(INCLUDE \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/sgtools\")")
+install(SCRIPT cmake/headers.cmake)
+
+install(EXPORT sgtools NAMESPACE sgtools:: DESTINATION ${package} FILE sgtoolsTargets.cmake)
+configure_package_config_file(cmake/sgtoolsConfig.cmake.in sgtoolsConfig.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file(sgtoolsConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/sgtoolsConfig.cmake ${PROJECT_BINARY_DIR}/sgtoolsConfigVersion.cmake
+  cmake/FindSuiteSparse.cmake cmake/FindMetis.cmake cmake/FindScotch.cmake DESTINATION ${package})
+
+# The libraries that have no .pc file of their own, as -lNAME.
+foreach(library ${SuiteSparse_LIBRARIES} ${Metis_LIBRARY} ${Scotch_LIBRARY} ${Scotch_error_LIBRARY})
+  get_filename_component(name ${library} NAME_WE)
+  string(REGEX REPLACE "^lib" " -l" name ${name})
+  string(APPEND pc_libraries ${name})
+endforeach()
+file(RELATIVE_PATH pc_up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(cmake/sgtools.pc.in sgtools.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/sgtools.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -1,67 +1,78 @@
+// sg-bayes: the Bayes tree of an elimination, as a table or as a drawing.
 #include <algorithm>
 
-// sg-bayes: the Bayes tree of an elimination, as a table or as a drawing.
-#include "cmd/common/command.h"
-#include "cmd/common/method.h"
-#include "cmd/common/table.h"
+#include "cmd/common/drawing.h"
 #include "lib/elim/bayes_tree.h"
 
 namespace {
 
-const std::vector<std::string_view> columns{"clique",    "parent", "depth", "frontal",
-                                            "separator", "d_f",    "d_s",   "cost"};
-
-struct Options {
-  sg::Input input;
-  sg::MethodOptions method;
-  sg::OutputOptions output;
-  sg::TableOptions table;
-  bool dot = false;
-};
-
-// A Bayes tree with the ids of its variables.
+// A Bayes tree with the ids of its variables, which take the space of all cliques together.
 struct NamedTree {
+  const sg::Graph& graph;
+  sg::GraphPattern variables;
+  sg::Order order;
   sg::BayesTree tree;
-  std::vector<sg::IdList> frontal;
-  std::vector<sg::IdList> separator;
+  std::vector<sg::Index> depth;
+  std::optional<sg::Groups> frontals_ = {};
+  std::optional<sg::Groups> separators_ = {};
+
+  const sg::Groups& frontals() {
+    return sg::once(frontals_, [&] { return sg::clique_frontals(tree); });
+  }
+  const sg::Groups& separators() {
+    return sg::once(separators_, [&] {
+      return sg::clique_separators(sg::ordered(variables.pattern, order), tree);
+    });
+  }
 };
 
-// In elimination order.
-std::vector<sg::IdList> ids(const sg::Groups& positions, const sg::Graph& graph,
-                            const sg::GraphPattern& variables, const sg::Order& order) {
-  std::vector<sg::IdList> result(positions.size());
-  for (sg::Index c = 0; c < positions.size(); ++c) {
-    std::vector<sg::Index> sorted(positions[c].begin(), positions[c].end());
-    std::sort(sorted.begin(), sorted.end());
-    for (const sg::Index k : sorted)
-      result[c].push_back(graph.id[variables.variable_vertex[order[k]]]);
+NamedTree named_tree(const sg::DrawingOptions& options, const sg::Graph& graph) {
+  sg::GraphPattern variables = sg::graph_pattern(graph);
+  sg::Order order = sg::named_order(options.method, graph, variables).order;
+  sg::BayesTree tree = sg::bayes_tree(sg::symbolic(variables.pattern, order));
+  std::vector<sg::Index> depth(tree.cliques(), 0);
+  for (sg::Index c = 0; c < tree.cliques(); ++c) {
+    if (tree.parent[c] >= 0) depth[c] = depth[tree.parent[c]] + 1;
   }
+  return {graph, std::move(variables), std::move(order), std::move(tree), std::move(depth)};
+}
+
+// The ids of variables at these positions, in elimination order.
+sg::IdList ids(const NamedTree& named, std::span<const sg::Index> positions) {
+  std::vector<sg::Index> sorted(positions.begin(), positions.end());
+  std::sort(sorted.begin(), sorted.end());
+  sg::IdList result;
+  for (const sg::Index k : sorted)
+    result.push_back(named.graph.id[named.variables.variable_vertex[named.order[k]]]);
   return result;
 }
 
-NamedTree named_tree(const Options& options, const sg::Graph& graph) {
-  const sg::GraphPattern variables = sg::graph_pattern(graph);
-  const auto [label, order] = sg::named_order(options.method, graph, variables);
-  NamedTree named{sg::bayes_tree(sg::symbolic(variables.pattern, order)), {}, {}};
-  named.frontal = ids(sg::clique_frontals(named.tree), graph, variables, order);
-  named.separator = ids(sg::clique_separators(sg::ordered(variables.pattern, order), named.tree),
-                        graph, variables, order);
-  return named;
-}
+struct Row {
+  NamedTree& named;
+  sg::Index clique;
 
-void print_table(const Options& options, const NamedTree& named, sg::Output& output) {
-  const sg::BayesTree& tree = named.tree;
-  sg::Table table(options.table, columns, output);
-  std::vector<std::int64_t> depth(tree.cliques(), 0);
-  for (sg::Index c = 0; c < tree.cliques(); ++c) {
-    const sg::Index parent = tree.parent[c];
-    if (parent >= 0) depth[c] = depth[parent] + 1;
-    table.row({std::int64_t{c}, parent < 0 ? sg::Cell() : sg::Cell(std::int64_t{parent}), depth[c],
-               named.frontal[c], named.separator[c], tree.frontal_dim[c],
-               tree.total_dim[c] - tree.frontal_dim[c],
-               sg::elimination_cost(tree.frontal_dim[c], tree.total_dim[c])});
+  sg::IdList frontal() const { return ids(named, named.frontals()[clique]); }
+  sg::IdList separator() const { return ids(named, named.separators()[clique]); }
+  std::int64_t frontal_dim() const { return named.tree.frontal_dim[clique]; }
+  std::int64_t total_dim() const { return named.tree.total_dim[clique]; }
+  std::optional<sg::Index> parent() const {
+    const sg::Index above = named.tree.parent[clique];
+    return above < 0 ? std::nullopt : std::optional(above);
   }
-}
+};
+
+const std::vector<sg::Column<Row>> columns{
+    {"clique", "Its number, from 0", &Row::clique},
+    {"parent", "The clique above; empty at a root", &Row::parent},
+    {"depth", "Cliques above it", [](Row& row) { return row.named.depth[row.clique]; }},
+    {"frontal", "Ids of the variables eliminated in it, in their order", &Row::frontal},
+    {"separator", "Ids of those that they depend on, in their order", &Row::separator},
+    {"d_f", "Scalar dimension of its frontal variables", &Row::frontal_dim},
+    {"d_s", "Scalar dimension of its separator",
+     [](Row& row) { return row.total_dim() - row.frontal_dim(); }},
+    {"cost", "d_f (d_f + d_s)^2; the sum is the tree's elimination complexity",
+     [](Row& row) { return sg::elimination_cost(row.frontal_dim(), row.total_dim()); }},
+};
 
 std::string joined(const sg::IdList& list) {
   std::string text;
@@ -69,39 +80,40 @@ std::string joined(const sg::IdList& list) {
   return text;
 }
 
-void print_dot(const NamedTree& named, sg::Output& output) {
+void print_dot(NamedTree& named, sg::Output& output) {
   output.write("digraph bayes_tree {\n  node [shape=box, style=rounded];\n");
   for (sg::Index c = 0; c < named.tree.cliques(); ++c) {
-    const std::string separator = joined(named.separator[c]);
-    output.write("  c" + std::to_string(c) + " [label=\"" + joined(named.frontal[c]) +
+    const Row row{named, c};
+    const std::string separator = joined(row.separator());
+    output.write("  c" + std::to_string(c) + " [label=\"" + joined(row.frontal()) +
                  (separator.empty() ? "" : " : " + separator) + "\"];\n");
-    if (named.tree.parent[c] >= 0) {
-      output.write("  c" + std::to_string(named.tree.parent[c]) + " -> c" + std::to_string(c) +
-                   ";\n");
-    }
+    if (row.parent())
+      output.write("  c" + std::to_string(*row.parent()) + " -> c" + std::to_string(c) + ";\n");
   }
   output.write("}\n");
+}
+
+void show(const sg::Command& /*command*/, const sg::DrawingOptions& options) {
+  sg::check(options.method);
+  const sg::Graph graph = sg::read(options.input);
+  NamedTree named = named_tree(options, graph);
+  sg::Output output(options.output.path);
+  if (options.dot) {
+    print_dot(named, output);
+  } else {
+    sg::Table table(options.table, columns, {}, output);
+    for (sg::Index c = 0; c < named.tree.cliques(); ++c) table.row({named, c});
+  }
+  output.commit();
+}
+
+void add_options(sg::Command& command, sg::DrawingOptions& options) {
+  sg::add_drawing(command, options, "tree", columns);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-bayes", "Print the Bayes tree of a graph: its cliques.");
-  Options options;
-  sg::add_input(command, options.input);
-  sg::add_method(command, options.method);
-  command.app.add_flag("--dot", options.dot, "Draw the tree, for Graphviz");
-  sg::add_output(command, options.output);
-  sg::add_table(command, options.table, columns);
-  return sg::run(command, argc, argv, [&] {
-    sg::check(options.method);
-    const NamedTree named = named_tree(options, sg::read(options.input));
-    sg::Output output(options.output.path);
-    if (options.dot) {
-      print_dot(named, output);
-    } else {
-      print_table(options, named, output);
-    }
-    output.commit();
-  });
+  return sg::run(sg::Command("sg-bayes", "Print the Bayes tree of a graph: its cliques."), argc,
+                 argv, add_options, show);
 }

@@ -1,3 +1,4 @@
+// sg-check: what is wrong with a graph, a line a finding.
 #include <algorithm>
 
 #include "cmd/common/command.h"

@@ -1,3 +1,4 @@
+// sg-convert: write a graph in another format.
 #include "cmd/common/command.h"
 #include "formats/convert.h"
 #include "lib/factor/initialize.h"
@@ -59,11 +60,7 @@ std::string known_formats() {
   return known;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  sg::Command command("sg-convert", "Write a graph in another format.");
-  Options options;
+void add_options(sg::Command& command, Options& options) {
   sg::add_input(command, options.input);
   command.app.add_option("--to", options.to, known_formats() + " (default: g2o)")
       ->option_text("FORMAT");
@@ -73,5 +70,11 @@ int main(int argc, char** argv) {
                        "In an edges-only file: add VERTEX lines,\ncomposed along odometry");
   command.app.add_flag("--lossy", options.lossy, "Leave out what the format cannot hold");
   sg::add_output(command, options.output);
-  return sg::run(command, argc, argv, [&] { convert(command, options); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return sg::run(sg::Command("sg-convert", "Write a graph in another format."), argc, argv,
+                 add_options, convert);
 }

@@ -1,6 +1,8 @@
+// sg-cut: keep a part of a graph: steps, poses, ids, or what is connected.
 #include <algorithm>
 
 #include "cmd/common/command.h"
+#include "cmd/common/options.h"
 #include "lib/graph/cut.h"
 #include "lib/text/words.h"
 
@@ -10,7 +12,7 @@ struct Options {
   sg::Input input;
   sg::OutputOptions output;
   std::optional<sg::Index> poses;
-  int min_obs = 1;
+  sg::Index min_obs = 1;
   std::string range;
   std::optional<sg::Id> component;
   bool largest = false;
@@ -88,11 +90,7 @@ void cut(const sg::Command& command, const Options& options) {
   sg::write_filtered(command, options.output, graph, std::move(changes));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  sg::Command command("sg-cut", "Keep a part of a graph.");
-  Options options;
+void add_options(sg::Command& command, Options& options) {
   sg::add_input(command, options.input);
   auto& app = command.app;
   app.add_option("--poses", options.poses, "Keep the first N steps of the replay")
@@ -107,10 +105,12 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("ID,FIRST:LAST,...");
-  app.add_option("--min-obs", options.min_obs,
-                 "With --poses: a landmark enters with its\nN-th observation (default: 1)")
-      ->check(CLI::PositiveNumber)
-      ->option_text("N");
+  sg::add_entry(app, options.min_obs, "With --poses: a landmark");
   sg::add_filter_output(command, options.output);
-  return sg::run(command, argc, argv, [&] { cut(command, options); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return sg::run(sg::Command("sg-cut", "Keep a part of a graph."), argc, argv, add_options, cut);
 }

@@ -1,22 +1,24 @@
-#include <map>
-
+// sg-dec: keep every R-th observation of each landmark, or loop closure of each place.
+#include "cmd/common/options.h"
 #include "cmd/common/prune_options.h"
 #include "lib/prune/decimate.h"
 
+namespace {
+
+const std::map<std::string, sg::DecimationOffset> offsets{
+    {"first", sg::DecimationOffset::first},
+    {"aligned", sg::DecimationOffset::aligned},
+    {"random", sg::DecimationOffset::random}};
+
+}  // namespace
+
 int main(int argc, char** argv) {
   sg::Command command("sg-dec", "Decimate: keep every R-th observation of each landmark.");
-  sg::Input input;
-  sg::OutputOptions output;
-  std::string kind_name;
+  sg::PruneOptions options;
   sg::Index rate = 1;
-  sg::Index min_obs = 1;
-  std::uint64_t seed = 1;
   std::string offset = "first";
-  const std::map<std::string, sg::DecimationOffset> offsets{
-      {"first", sg::DecimationOffset::first},
-      {"aligned", sg::DecimationOffset::aligned},
-      {"random", sg::DecimationOffset::random}};
-  sg::add_input(command, input);
+  std::uint64_t seed = 1;
+  sg::add_input(command, options.input);
   command.app.add_option("-r,--rate", rate, "Keep pose index mod R = offset")
       ->type_name("R")
       ->check(sg::at_least_one())
@@ -25,20 +27,13 @@ int main(int argc, char** argv) {
       .add_option("--offset", offset,
                   "Of a landmark: first (of its first observation;\n"
                   "the default), aligned (0), random")
-      ->type_name("KIND")
-      ->check(CLI::IsMember(offsets).description(""));
-  command.app.add_option("--seed", seed, "Of random offsets (default: 1)")->type_name("N");
-  sg::add_candidates(command, kind_name);
-  sg::add_min_obs(command, min_obs);
-  sg::add_filter_output(command, output);
+      ->option_text("KIND")
+      ->check(sg::one_of({"first", "aligned", "random"}));
+  sg::add_seed(command.app, seed, "Seed of random offsets");
+  sg::add_pruning(command, options);
   return sg::run(command, argc, argv, [&] {
-    const sg::Graph graph = sg::read(input);
-    const sg::PoseIndex poses = sg::pose_index(graph);
-    const auto candidates =
-        sg::candidate_edges(graph, poses, sg::candidates_named(kind_name, graph));
-    const auto kept = sg::decimate(graph, poses, candidates, rate, offsets.at(offset), seed);
-    sg::Removal removal = sg::removal_of_rest(graph, candidates, kept);
-    sg::write_filtered(command, output, graph,
-                       sg::pruned(command, graph, poses, min_obs, std::move(removal)));
+    sg::prune(command, options, [&](const sg::Prunable& from) {
+      return sg::decimate(from.graph, from.poses, from.candidates, rate, offsets.at(offset), seed);
+    });
   });
 }

@@ -1,22 +1,15 @@
 // sg-ec: what a graph costs to eliminate; over time with --trace, by variable with --per-vertex.
-#include <algorithm>
+#include <numeric>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
+#include "cmd/common/options.h"
 #include "cmd/common/progress.h"
 #include "cmd/common/table.h"
-#include "lib/elim/score.h"
+#include "lib/elim/bayes_tree.h"
 #include "lib/graph/replay.h"
 
 namespace {
-
-using Names = std::vector<std::string_view>;
-
-const Names score_columns{"file", "step",       "order",  "vertices", "edges",
-                          "dim",  "ec",         "rose",   "flops",    "nnz",
-                          "fill", "max_clique", "height", "cliques",  "ec_bt"};
-const Names vertex_columns{"file",     "order", "id",  "tag",  "role",
-                           "position", "d_f",   "d_s", "cost", "share"};
 
 struct Options {
   sg::Inputs inputs;
@@ -25,66 +18,124 @@ struct Options {
   sg::MethodOptions methods;
   bool trace = false;
   sg::Index every = 1;
-  int min_obs = 1;
+  sg::Index min_obs = 1;
   bool per_vertex = false;
 };
 
-// A graph, or the part of it that has entered by some step.
+// A graph, or the part of it that has entered by some step, under one order.
 struct Subject {
+  const Options& options;
   const std::string& file;
-  sg::Cell step;
+  std::optional<sg::Index> step;
   sg::Index vertices;
   sg::Index edges;
   const sg::Graph& graph;
   const sg::GraphPattern& variables;
+  const sg::Method* method = nullptr;
 };
 
-bool wants_any(const sg::Table& table, const Names& names) {
-  return std::any_of(names.begin(), names.end(), [&](auto name) { return table.wants(name); });
+sg::Order order_of(const Subject& subject) {
+  return sg::order_by(*subject.method, subject.options.methods, subject.graph, subject.variables);
 }
 
-std::int64_t total_dim(const sg::Pattern& pattern) {
-  std::int64_t sum = 0;
-  for (const int dim : pattern.dim) sum += dim;
-  return sum;
-}
+struct ScoreRow {
+  const Subject& subject;
+  std::optional<sg::Symbolic> symbolic_ = {};
+  std::optional<sg::Score> score_ = {};
+  std::optional<sg::BayesTree> tree_ = {};
 
-void score_row(sg::Table& table, const Subject& subject, const sg::Method& method,
-               const Options& options) {
-  const sg::Pattern& pattern = subject.variables.pattern;
-  sg::Score score;
-  const bool tree = wants_any(table, {"cliques", "ec_bt"});
-  if (tree || wants_any(table, {"ec", "rose", "flops", "nnz", "fill", "max_clique", "height"})) {
-    const sg::Symbolic symbolic = sg::symbolic(
-        pattern, sg::order_by(method, options.methods, subject.graph, subject.variables));
-    score = tree ? sg::score(symbolic) : sg::column_score(symbolic);
+  const sg::Pattern& pattern() const { return subject.variables.pattern; }
+  const sg::Symbolic& symbolic() {
+    return sg::once(symbolic_, [&] { return sg::symbolic(pattern(), order_of(subject)); });
   }
-  const sg::Wide fill = table.wants("fill") ? score.nnz - sg::system_nnz(pattern) : 0;
-  table.row({subject.file, subject.step, method.label, std::int64_t{subject.vertices},
-             std::int64_t{subject.edges}, total_dim(pattern), score.ec, score.rose, score.flops,
-             score.nnz, fill, score.max_clique, std::int64_t{score.height},
-             std::int64_t{score.cliques}, score.ec_bt});
+  const sg::Score& score() {
+    return sg::once(score_, [&] { return sg::column_score(symbolic()); });
+  }
+  const sg::BayesTree& tree() {
+    return sg::once(tree_, [&] { return sg::bayes_tree(symbolic()); });
+  }
+};
+
+struct VertexRow {
+  const Subject& subject;
+  sg::Index vertex;
+  std::size_t position;
+  std::int64_t frontal;
+  std::int64_t separator;
+  double ec;
+
+  sg::Wide cost() const { return sg::elimination_cost(frontal, frontal + separator); }
+};
+
+template <class Row>
+sg::Column<Row> file_column() {
+  return {"file", "The file", [](Row& row) { return row.subject.file; }, "several files"};
 }
 
-void vertex_rows(sg::Table& table, const Subject& subject, const sg::Method& method,
-                 const Options& options) {
-  const sg::Order order = sg::order_by(method, options.methods, subject.graph, subject.variables);
+template <class Row>
+sg::Column<Row> order_column() {
+  return {"order", "The ordering; file:NAME is the one that sg-order left",
+          [](Row& row) { return row.subject.method->label; }};
+}
+
+const std::vector<sg::Column<ScoreRow>> score_columns{
+    file_column<ScoreRow>(),
+    {"step", "Of the replay, from 0", [](ScoreRow& row) { return row.subject.step; }, "--trace"},
+    order_column<ScoreRow>(),
+    {"vertices", "Of the graph, fixed ones included",
+     [](ScoreRow& row) { return row.subject.vertices; }},
+    {"edges", "Of the graph", [](ScoreRow& row) { return row.subject.edges; }},
+    {"dim", "Scalar dimension of all variables: of what is not fixed",
+     [](ScoreRow& row) {
+       return std::accumulate(row.pattern().dim.begin(), row.pattern().dim.end(), std::int64_t{0});
+     }},
+    {"ec", "Elimination complexity", [](ScoreRow& row) { return row.score().ec; }},
+    {"rose", "Multiplications of a Cholesky factorization, by Rose's count",
+     [](ScoreRow& row) { return row.score().rose; }},
+    {"flops", "The same by CHOLMOD's count", [](ScoreRow& row) { return row.score().flops; }},
+    {"nnz", "Entries of the factor", [](ScoreRow& row) { return row.score().nnz; }},
+    {"fill", "Those of them that the system matrix did not have",
+     [](ScoreRow& row) { return row.score().nnz - sg::system_nnz(row.pattern()); }},
+    {"max_clique", "The largest d_f + d_s", [](ScoreRow& row) { return row.score().max_clique; }},
+    {"height", "Variables on the longest path of the elimination tree",
+     [](ScoreRow& row) { return row.score().height; }},
+    {"cliques", "Cliques of the Bayes tree", [](ScoreRow& row) { return row.tree().cliques(); }},
+    {"ec_bt", "Elimination complexity of the Bayes tree: the sum over cliques",
+     [](ScoreRow& row) { return sg::elimination_complexity(row.tree()); }},
+};
+
+const std::vector<sg::Column<VertexRow>> vertex_columns{
+    file_column<VertexRow>(),
+    order_column<VertexRow>(),
+    {"id", "Of the vertex", [](VertexRow& row) { return row.subject.graph.id[row.vertex]; }},
+    {"tag", "Its type",
+     [](VertexRow& row) { return row.subject.graph.type_of_vertex(row.vertex).tag; }},
+    {"role", "pose, landmark or other",
+     [](VertexRow& row) { return sg::name(row.subject.graph.role(row.vertex)); }},
+    {"position", "In the order, from 0", &VertexRow::position},
+    {"d_f", "Its scalar dimension", &VertexRow::frontal},
+    {"d_s", "Scalar dimension of its separator", &VertexRow::separator},
+    {"cost", "d_f (d_f + d_s)^2", [](VertexRow& row) { return row.cost(); }},
+    {"share", "Of EC", [](VertexRow& row) { return sg::to_double(row.cost()) / row.ec; }},
+};
+
+void vertex_rows(sg::Table<VertexRow>& table, const Subject& subject) {
+  const sg::Order order = order_of(subject);
   const sg::Symbolic symbolic = sg::symbolic(subject.variables.pattern, order);
   const double ec = sg::to_double(sg::elimination_complexity(symbolic));
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const sg::Index v = subject.variables.variable_vertex[order[k]];
+    const sg::Index vertex = subject.variables.variable_vertex[order[k]];
     const std::int64_t frontal = symbolic.dim[k];
-    const sg::Wide cost = sg::elimination_cost(frontal, symbolic.count[k]);
-    table.row({subject.file, method.label, subject.graph.id[v], subject.graph.type_of_vertex(v).tag,
-               std::string(sg::name(subject.graph.role(v))), static_cast<std::int64_t>(k), frontal,
-               symbolic.count[k] - frontal, cost, sg::to_double(cost) / ec});
+    table.row({subject, vertex, k, frontal, symbolic.count[k] - frontal, ec});
   }
 }
 
-// The graph as it grows: calls `row` with what stands after every `every`-th step and after the
+using Show = std::function<void(const Subject&)>;
+
+// The graph as it grows: calls `show` with what stands after every `every`-th step and after the
 // last.
 void replay_rows(const sg::Graph& graph, const std::string& file, const Options& options,
-                 const std::function<void(const Subject&)>& row) {
+                 const Show& show) {
   const sg::Replay replay = sg::replay(graph, sg::pose_index(graph), options.min_obs);
   const sg::ByStep vertices = sg::by_step(replay.vertex_step, replay.steps);
   const sg::ByStep edges = sg::by_step(replay.edge_step, replay.steps);
@@ -97,32 +148,22 @@ void replay_rows(const sg::Graph& graph, const std::string& file, const Options&
     progress.update(k);
     if (k % options.every != 0 && k + 1 < replay.steps) continue;
     const sg::GraphPattern variables = sg::graph_pattern(graph, vertex_in, edge_in);
-    row({file, std::int64_t{k}, vertices.begin[k + 1], edges.begin[k + 1], graph, variables});
+    show({options, file, k, vertices.begin[k + 1], edges.begin[k + 1], graph, variables});
   }
 }
 
-void score_file(sg::Table& table, const std::string& path, const Options& options) {
+void show_file(const std::string& path, const Options& options, const Show& show) {
   const sg::Graph graph = sg::read(options.inputs, path);
   const std::vector<sg::Method> methods = sg::methods(options.methods, graph);
-  const auto rows = [&](const Subject& subject) {
-    for (const sg::Method& method : methods)
-      (options.per_vertex ? vertex_rows : score_row)(table, subject, method, options);
+  const Show under_each = [&](Subject subject) {
+    for (const sg::Method& method : methods) {
+      subject.method = &method;
+      show(subject);
+    }
   };
-  if (options.trace) return replay_rows(graph, path, options, rows);
+  if (options.trace) return replay_rows(graph, path, options, under_each);
   const sg::GraphPattern variables = sg::graph_pattern(graph);
-  rows({path, {}, graph.vertices(), graph.edges(), graph, variables});
-}
-
-// All columns, without `file` where there is one file, and without `step` where there is no time.
-sg::TableOptions with_default_columns(const Options& options, const Names& names) {
-  sg::TableOptions table = options.table;
-  if (!table.columns.empty()) return table;
-  for (const auto name : names) {
-    if (name == "file" && options.inputs.paths.size() < 2) continue;
-    if (name == "step" && !options.trace) continue;
-    table.columns.emplace_back(name);
-  }
-  return table;
+  under_each({options, path, {}, graph.vertices(), graph.edges(), graph, variables});
 }
 
 void add_options(sg::Command& command, Options& options) {
@@ -131,34 +172,38 @@ void add_options(sg::Command& command, Options& options) {
   auto& app = command.app;
   auto* trace = app.add_flag("--trace", options.trace, "A row for every step of the growing graph")
                     ->option_text(" ");
-  app.add_option("--every", options.every, "With --trace: every K-th step, and the last")
-      ->needs(trace)
-      ->check(CLI::PositiveNumber)
-      ->option_text("K");
-  app.add_option("--min-obs", options.min_obs,
-                 "With --trace: a landmark enters with its\nM-th observation (default: 1)")
-      ->needs(trace)
-      ->check(CLI::PositiveNumber)
-      ->option_text("M");
+  sg::add_every(app, options.every, "With --trace:")->needs(trace);
+  sg::add_entry(app, options.min_obs, "With --trace: a landmark")->needs(trace);
   app.add_flag("--per-vertex", options.per_vertex, "A row for every variable, in elimination order")
       ->excludes(trace)
       ->option_text(" ");
   sg::add_output(command, options.output);
-  sg::add_table(command, options.table, score_columns);
+  sg::add_table(
+      command, options.table,
+      {{"", sg::headings(score_columns)}, {"With --per-vertex:", sg::headings(vertex_columns)}});
+}
+
+void score(const sg::Command& /*command*/, const Options& options) {
+  sg::check(options.methods);
+  const sg::Given given{{"several files", options.inputs.paths.size() > 1},
+                        {"--trace", options.trace}};
+  sg::Output output(options.output.path);
+  const auto show_files = [&](const Show& show) {
+    for (const auto& path : options.inputs.paths) show_file(path, options, show);
+    output.commit();
+  };
+  if (options.per_vertex) {
+    sg::Table table(options.table, vertex_columns, given, output);
+    show_files([&](const Subject& subject) { vertex_rows(table, subject); });
+  } else {
+    sg::Table table(options.table, score_columns, given, output);
+    show_files([&](const Subject& subject) { table.row({subject}); });
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-ec", "Score the elimination complexity of graphs.");
-  Options options;
-  add_options(command, options);
-  return sg::run(command, argc, argv, [&] {
-    sg::check(options.methods);
-    const Names& names = options.per_vertex ? vertex_columns : score_columns;
-    sg::Output output(options.output.path);
-    sg::Table table(with_default_columns(options, names), names, output);
-    for (const auto& path : options.inputs.paths) score_file(table, path, options);
-    output.commit();
-  });
+  return sg::run(sg::Command("sg-ec", "Score the elimination complexity of graphs."), argc, argv,
+                 add_options, score);
 }

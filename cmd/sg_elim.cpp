@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cmd/common/command.h"
-#include "cmd/common/method.h"
-#include "cmd/common/table.h"
+#include "cmd/common/drawing.h"
 #include "lib/elim/node_elimination.h"
 #include "lib/elim/score.h"
 #include "lib/text/error.h"
@@ -14,50 +12,52 @@ namespace {
 // Adjacency by bits: 3 GB at this size, where nobody reads the result either.
 constexpr sg::Index most_variables = 150'000;
 
-const std::vector<std::string_view> columns{"step", "variable", "neighbours", "fill",
-                                            "d_f",  "d_s",      "cost"};
-
-struct Options {
-  sg::Input input;
-  sg::MethodOptions method;
-  sg::OutputOptions output;
-  sg::TableOptions table;
-  bool dot = false;
-};
-
-using Edge = std::pair<sg::Index, sg::Index>;  // of variables, first < second
-
-Edge edge(sg::Index a, sg::Index b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 struct Names {
   const sg::Graph& graph;
   const sg::GraphPattern& variables;
   sg::Id operator()(sg::Index j) const { return graph.id[variables.variable_vertex[j]]; }
 };
 
-sg::IdPairs id_pairs(const std::vector<Edge>& edges, const Names& id_of) {
-  sg::IdPairs pairs;
-  for (const auto& [a, b] : edges) pairs.emplace_back(id_of(a), id_of(b));
-  return pairs;
-}
+struct Row {
+  const Names& id_of;
+  const sg::EliminationStep& eliminated;
+  std::size_t step;
 
-void print_table(const Options& options, const sg::Pattern& pattern, const Names& id_of,
-                 const std::vector<sg::EliminationStep>& steps, sg::Output& output) {
-  sg::Table table(options.table, columns, output);
-  std::int64_t k = 0;
-  for (const auto& step : steps) {
-    sg::IdList neighbours;
-    std::int64_t separator = 0;
-    for (const sg::Index j : step.neighbours) {
-      neighbours.push_back(id_of(j));
-      separator += pattern.dim[j];
-    }
-    const std::int64_t frontal = pattern.dim[step.variable];
-    table.row({k++, id_of(step.variable), neighbours, id_pairs(step.fill, id_of), frontal,
-               separator, sg::elimination_cost(frontal, frontal + separator)});
+  std::int64_t dim(sg::Index j) const { return id_of.variables.pattern.dim[j]; }
+  std::int64_t frontal() const { return dim(eliminated.variable); }
+  std::int64_t separator() const {
+    std::int64_t sum = 0;
+    for (const sg::Index j : eliminated.neighbours) sum += dim(j);
+    return sum;
   }
+  sg::IdList neighbours() const {
+    sg::IdList ids;
+    for (const sg::Index j : eliminated.neighbours) ids.push_back(id_of(j));
+    return ids;
+  }
+  sg::IdPairs fill() const {
+    sg::IdPairs pairs;
+    for (const auto& [a, b] : eliminated.fill) pairs.emplace_back(id_of(a), id_of(b));
+    return pairs;
+  }
+};
+
+const std::vector<sg::Column<Row>> columns{
+    {"step", "From 0", &Row::step},
+    {"variable", "Id of the variable that goes",
+     [](Row& row) { return row.id_of(row.eliminated.variable); }},
+    {"neighbours", "Ids of its neighbours in what is left: its separator", &Row::neighbours},
+    {"fill", "Edges that are added, as pairs of ids", &Row::fill},
+    {"d_f", "Scalar dimension of the variable", &Row::frontal},
+    {"d_s", "Scalar dimension of its separator", &Row::separator},
+    {"cost", "d_f (d_f + d_s)^2; the sum is the elimination complexity",
+     [](Row& row) { return sg::elimination_cost(row.frontal(), row.frontal() + row.separator()); }},
+};
+
+using Edge = std::pair<sg::Index, sg::Index>;  // of variables, first < second
+
+Edge edge(sg::Index a, sg::Index b) {
+  return {std::min(a, b), std::max(a, b)};
 }
 
 // What is left of the graph before a step.
@@ -113,7 +113,8 @@ void print_dot(const sg::Pattern& pattern, const Names& id_of, const sg::Order& 
   output.write("}\n");
 }
 
-void simulate(const Options& options) {
+void show(const sg::Command& /*command*/, const sg::DrawingOptions& options) {
+  sg::check(options.method);
   const sg::Graph graph = sg::read(options.input);
   const sg::GraphPattern variables = sg::graph_pattern(graph);
   const sg::Pattern& pattern = variables.pattern;
@@ -123,30 +124,26 @@ void simulate(const Options& options) {
                               " variables are too many to simulate one by one (at most " +
                               std::to_string(most_variables) + "); sg-ec scores any graph");
   }
-  const auto [label, order] = sg::named_order(options.method, graph, variables);
+  const sg::Order order = sg::named_order(options.method, graph, variables).order;
   const auto steps = sg::node_elimination(pattern, order);
   const Names id_of{graph, variables};
   sg::Output output(options.output.path);
   if (options.dot) {
     print_dot(pattern, id_of, order, steps, output);
   } else {
-    print_table(options, pattern, id_of, steps, output);
+    sg::Table table(options.table, columns, {}, output);
+    for (std::size_t k = 0; k < steps.size(); ++k) table.row({id_of, steps[k], k});
   }
   output.commit();
+}
+
+void add_options(sg::Command& command, sg::DrawingOptions& options) {
+  sg::add_drawing(command, options, "elimination graphs", columns);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-elim", "Eliminate a graph node by node: neighbours and fill.");
-  Options options;
-  sg::add_input(command, options.input);
-  sg::add_method(command, options.method);
-  command.app.add_flag("--dot", options.dot, "Draw the elimination graphs, for Graphviz");
-  sg::add_output(command, options.output);
-  sg::add_table(command, options.table, columns);
-  return sg::run(command, argc, argv, [&] {
-    sg::check(options.method);
-    simulate(options);
-  });
+  return sg::run(sg::Command("sg-elim", "Eliminate a graph node by node: neighbours and fill."),
+                 argc, argv, add_options, show);
 }

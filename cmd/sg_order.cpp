@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cmd/common/command.h"
+#include "cmd/common/options.h"
 #include "formats/order_file.h"
 #include "formats/reorder.h"
 #include "lib/factor/initialize.h"
@@ -23,28 +24,15 @@ struct Options {
   std::string budget = "200t";
 };
 
-// The names of the table, in lines that fit a terminal beside the options.
-std::string method_help(const std::string& first) {
-  constexpr std::size_t width = 50;
-  std::string help = "Default: " + first + "; one of ";
-  std::size_t line_end = width;
-  for (const sg::Ordering& ordering : sg::orderings()) {
-    const std::string word = std::string(ordering.name) + ", ";
-    if (help.size() + word.size() > line_end) {
-      help.back() = '\n';
-      line_end = help.size() + width;
-    }
-    help += word;
-  }
-  help.resize(help.size() - 2);
-  return help;
-}
-
 void add_options(sg::Command& command, Options& options) {
   sg::add_input(command, options.input);
   auto& app = command.app;
-  auto* method = app.add_option("-m,--method", options.method, method_help(options.method))
-                     ->option_text("METHOD");
+  std::vector<std::string> methods;
+  for (const sg::Ordering& ordering : sg::orderings()) methods.emplace_back(ordering.name);
+  auto* method =
+      app.add_option("-m,--method", options.method,
+                     sg::wrapped_list("Default: " + options.method + "; one of ", methods, ", "))
+          ->option_text("METHOD");
   app.add_option("--apply", options.apply, "Take the order from FILE: ids in its first column")
       ->option_text("FILE")
       ->excludes(method);
@@ -52,8 +40,7 @@ void add_options(sg::Command& command, Options& options) {
       ->option_text("ID,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--seed", options.seed, "Seed of methods that draw or break ties (default: 0)")
-      ->option_text("N");
+  sg::add_seed(app, options.seed, "Seed of methods that draw or break ties");
   app.add_option("--budget", options.budget, "Of best: seconds, or Nt for N tries (default: 200t)")
       ->option_text("SECONDS|Nt");
   app.add_flag("--print", options.print, "Print the ids in their order instead of the graph");
@@ -162,24 +149,23 @@ void write_graph(const sg::Command& command, const Options& options, const sg::G
   output.commit();
 }
 
+void order(const sg::Command& command, const Options& options) {
+  sg::find_ordering(options.method);  // before a long read
+  sg::parse_budget(options.budget);
+  if (options.apply == "-" && options.input.path == "-") {
+    throw sg::usage_error("graph and order cannot both come from standard input");
+  }
+  const sg::Graph graph = sg::read(options.input);
+  const sg::GraphPattern variables = sg::graph_pattern(graph);
+  const sg::Order order = options.apply.empty() ? computed_order(command, options, graph, variables)
+                                                : applied_order(options, graph, variables);
+  if (options.print) return print_ids(options, graph, variables, order);
+  write_graph(command, options, graph, vertices_in_order(graph, variables, order));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-order", "Put the variables of a graph in elimination order.");
-  Options options;
-  add_options(command, options);
-  return sg::run(command, argc, argv, [&] {
-    sg::find_ordering(options.method);  // before a long read
-    sg::parse_budget(options.budget);
-    if (options.apply == "-" && options.input.path == "-") {
-      throw sg::usage_error("graph and order cannot both come from standard input");
-    }
-    const sg::Graph graph = sg::read(options.input);
-    const sg::GraphPattern variables = sg::graph_pattern(graph);
-    const sg::Order order = options.apply.empty()
-                                ? computed_order(command, options, graph, variables)
-                                : applied_order(options, graph, variables);
-    if (options.print) return print_ids(options, graph, variables, order);
-    write_graph(command, options, graph, vertices_in_order(graph, variables, order));
-  });
+  return sg::run(sg::Command("sg-order", "Put the variables of a graph in elimination order."),
+                 argc, argv, add_options, order);
 }

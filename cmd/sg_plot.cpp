@@ -1,8 +1,9 @@
-// sg-plot: pictures of a graph.
+// sg-plot: pictures of a graph, of its factor, of its Bayes tree.
 #include <array>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
+#include "cmd/common/options.h"
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
@@ -26,14 +27,14 @@ void add_options(sg::Command& command, Options& options) {
   app.add_option("WHAT", options.what,
                  "map: where everything is\npattern: R and its fill\ntree: the Bayes tree")
       ->required()
-      ->check(CLI::IsMember({"map", "pattern", "tree"}).description(""))
+      ->check(sg::one_of({"map", "pattern", "tree"}))
       ->option_text(" ");
   sg::add_input(command, options.input);
   sg::add_method(command, options.method);
   app.add_flag("--cost", options.cost, "Of a map: colour what costs by its share of EC")
       ->option_text(" ");
   app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
-      ->check(CLI::IsMember({"xy", "xz", "yz"}).description(""))
+      ->check(sg::one_of({"xy", "xz", "yz"}))
       ->option_text("PLANE");
   app.add_option("--width", options.size.width,
                  "Of the picture, in points or pixels (default: 600)")
@@ -60,21 +61,22 @@ void draw(cairo_t* page, const Options& options, const sg::Graph& graph) {
   sg::draw_tree(page, options.size, sg::symbolic(variables.pattern, order));
 }
 
+void plot(const sg::Command& /*command*/, const Options& options) {
+  const sg::PictureFormat format = sg::picture_format(options.output.path);
+  if (options.cost && options.what != "map") throw sg::usage_error("--cost belongs to map");
+  sg::check(options.method);
+  const sg::Graph graph = sg::read(options.input);
+  const std::string bytes = sg::picture(format, options.size.width, options.size.height,
+                                        [&](cairo_t* page) { draw(page, options, graph); });
+  sg::Output output(options.output.path);
+  output.write(bytes);
+  output.commit();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-plot", "Draw a graph, its factor, or its Bayes tree (svg, png, pdf).");
-  Options options;
-  add_options(command, options);
-  return sg::run(command, argc, argv, [&] {
-    const sg::PictureFormat format = sg::picture_format(options.output.path);
-    if (options.cost && options.what != "map") throw sg::usage_error("--cost belongs to map");
-    sg::check(options.method);
-    const sg::Graph graph = sg::read(options.input);
-    const std::string bytes = sg::picture(format, options.size.width, options.size.height,
-                                          [&](cairo_t* page) { draw(page, options, graph); });
-    sg::Output output(options.output.path);
-    output.write(bytes);
-    output.commit();
-  });
+  return sg::run(
+      sg::Command("sg-plot", "Draw a graph, its factor, or its Bayes tree (svg, png, pdf)."), argc,
+      argv, add_options, plot);
 }

@@ -8,30 +8,84 @@
 
 namespace {
 
-const std::vector<std::string_view> columns{"r",  "full",  "kf",     "dec",
-                                            "ec", "ec_kf", "ec_kf2", "ec_dec"};
-
 struct Options {
   sg::Input input{"", {}};
   sg::OutputOptions output;
   sg::TableOptions table;
-  std::int64_t poses = 0;
+  std::optional<std::int64_t> poses;
   std::int64_t landmarks = 0;
   int pose_dim = 6;
   int landmark_dim = 3;
-  std::vector<double> rates;
-  double ec = 0;
+  std::vector<double> rates{1};
+  std::optional<double> ec;
 };
 
-// Which of the things to predict from the call gives.
-struct Given {
-  bool counts;
-  bool ec;
+struct Row {
+  double r;
+  std::optional<sg::Sizes> sizes;
+  std::optional<double> ec;
+
+  std::optional<double> by(double (*formula)(const sg::Sizes&, double)) const {
+    return sizes ? std::optional(formula(*sizes, r)) : std::nullopt;
+  }
+  std::optional<double> scaled(double times, double divisor) const {
+    return ec ? std::optional(times * *ec / divisor) : std::nullopt;
+  }
 };
 
-sg::Sizes sizes_of(const Options& options, const Given& given) {
-  if (given.counts) {
-    return {static_cast<double>(options.poses) * options.pose_dim,
+double full(const sg::Sizes& sizes, double /*r*/) {
+  return sg::predict_full(sizes);
+}
+
+const std::vector<sg::Column<Row>> columns{
+    {"r", "The rate: one pose, or one observation, in r is kept", &Row::r},
+    {"full", "(L + X) X^2: without pruning", [](Row& row) { return row.by(full); }, "sizes"},
+    {"kf", "(L + X/r) (X/r)^2: keyframes", [](Row& row) { return row.by(sg::predict_keyframes); },
+     "sizes"},
+    {"dec", "(L + 9 X) (X/r)^2: decimation",
+     [](Row& row) { return row.by(sg::predict_decimation); }, "sizes"},
+    {"ec", "The given one", &Row::ec, "--ec"},
+    {"ec_kf", "By 1/r^3, what keyframes come close to",
+     [](Row& row) { return row.scaled(1, row.r * row.r * row.r); }, "--ec"},
+    {"ec_kf2", "By 1/r^2, the least that keyframes save",
+     [](Row& row) { return row.scaled(1, row.r * row.r); }, "--ec"},
+    {"ec_dec", "By 9/r^2, for decimation", [](Row& row) { return row.scaled(9, row.r * row.r); },
+     "--ec"},
+};
+
+void add_options(sg::Command& command, Options& options) {
+  sg::add_input(command, options.input);
+  auto& app = command.app;
+  app.add_option("-r,--rate", options.rates, "Rates of pruning, 1 or more (default: 1)")
+      ->option_text("R,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  auto* poses = app.add_option("--poses", options.poses, "Number of poses, instead of a graph")
+                    ->option_text("N")
+                    ->check(CLI::PositiveNumber)
+                    ->excludes(app.get_option("FILE"));
+  app.add_option("--landmarks", options.landmarks, "Number of landmarks (default: 0)")
+      ->option_text("N")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(poses);
+  const auto add_dim = [&](const std::string& name, int& dim, const std::string& of) {
+    app.add_option(name, dim, "Dimension of a " + of + " (default: " + std::to_string(dim) + ")")
+        ->option_text("D")
+        ->check(CLI::PositiveNumber)
+        ->needs(poses);
+  };
+  add_dim("--pose-dim", options.pose_dim, "pose");
+  add_dim("--landmark-dim", options.landmark_dim, "landmark");
+  app.add_option("--ec", options.ec, "EC of the unpruned graph, to be scaled")
+      ->option_text("EC")
+      ->check(CLI::PositiveNumber);
+  sg::add_output(command, options.output);
+  sg::add_table(command, options.table, columns);
+}
+
+sg::Sizes sizes_of(const Options& options) {
+  if (options.poses) {
+    return {static_cast<double>(*options.poses) * options.pose_dim,
             static_cast<double>(options.landmarks) * options.landmark_dim};
   }
   sg::Input input = options.input;
@@ -42,69 +96,23 @@ sg::Sizes sizes_of(const Options& options, const Given& given) {
   return sizes;
 }
 
-void print_rows(const Options& options, const Given& given, sg::Output& output) {
-  const bool has_sizes = given.counts || !given.ec || !options.input.path.empty();
-  sg::TableOptions table_options = options.table;
-  if (table_options.columns.empty()) {
-    table_options.columns = {"r"};
-    if (has_sizes) table_options.columns.insert(table_options.columns.end(), {"full", "kf", "dec"});
-    if (given.ec)
-      table_options.columns.insert(table_options.columns.end(),
-                                   {"ec", "ec_kf", "ec_kf2", "ec_dec"});
-  }
-  sg::Table table(table_options, columns, output);
-  const sg::Sizes sizes = has_sizes ? sizes_of(options, given) : sg::Sizes{};
-  const auto known = [](bool is, double value) { return is ? sg::Cell(value) : sg::Cell(); };
+void predict(const sg::Command& /*command*/, const Options& options) {
   for (const double r : options.rates) {
-    const double ec = options.ec;
-    table.row({r, known(has_sizes, sg::predict_full(sizes)),
-               known(has_sizes, sg::predict_keyframes(sizes, r)),
-               known(has_sizes, sg::predict_decimation(sizes, r)), known(given.ec, ec),
-               known(given.ec, ec / (r * r * r)), known(given.ec, ec / (r * r)),
-               known(given.ec, 9 * ec / (r * r))});
+    if (!(r >= 1) || std::isinf(r)) throw sg::usage_error("-r wants a rate of 1 or more");
   }
+  const bool sized = options.poses || !options.ec || !options.input.path.empty();
+  sg::Output output(options.output.path);
+  sg::Table table(options.table, columns, {{"sizes", sized}, {"--ec", options.ec.has_value()}},
+                  output);
+  const auto sizes = sized ? std::optional(sizes_of(options)) : std::nullopt;
+  for (const double r : options.rates) table.row({r, sizes, options.ec});
+  output.commit();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-predict", "Predict what pruning saves, by the paper's closed forms.");
-  Options options;
-  sg::add_input(command, options.input);
-  auto& app = command.app;
-  auto* file = app.get_option("FILE");
-  app.add_option("-r,--rate", options.rates, "Rates of pruning, 1 or more (default: 1)")
-      ->option_text("R,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  auto* poses = app.add_option("--poses", options.poses, "Number of poses, instead of a graph")
-                    ->option_text("N")
-                    ->check(CLI::PositiveNumber)
-                    ->excludes(file);
-  app.add_option("--landmarks", options.landmarks, "Number of landmarks (default: 0)")
-      ->option_text("N")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(poses);
-  app.add_option("--pose-dim", options.pose_dim, "Dimension of a pose (default: 6)")
-      ->option_text("D")
-      ->check(CLI::PositiveNumber)
-      ->needs(poses);
-  app.add_option("--landmark-dim", options.landmark_dim, "Dimension of a landmark (default: 3)")
-      ->option_text("D")
-      ->check(CLI::PositiveNumber)
-      ->needs(poses);
-  auto* ec = app.add_option("--ec", options.ec, "EC of the unpruned graph, to be scaled")
-                 ->option_text("EC")
-                 ->check(CLI::PositiveNumber);
-  sg::add_output(command, options.output);
-  sg::add_table(command, options.table, columns);
-  return sg::run(command, argc, argv, [&] {
-    if (options.rates.empty()) options.rates = {1};
-    for (const double r : options.rates) {
-      if (!(r >= 1) || std::isinf(r)) throw sg::usage_error("-r wants a rate of 1 or more");
-    }
-    sg::Output output(options.output.path);
-    print_rows(options, {poses->count() > 0, ec->count() > 0}, output);
-    output.commit();
-  });
+  return sg::run(
+      sg::Command("sg-predict", "Predict what pruning saves, by the paper's closed forms."), argc,
+      argv, add_options, predict);
 }

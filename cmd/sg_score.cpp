@@ -1,8 +1,9 @@
 // sg-score: what a graph is worth, and what it costs, in one row.
-#include <cmath>
+#include <algorithm>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
+#include "cmd/common/options.h"
 #include "cmd/common/table.h"
 #include "formats/tum.h"
 #include "lib/elim/score.h"
@@ -14,10 +15,6 @@
 
 namespace {
 
-const std::vector<std::string_view> columns{"file",     "vertices", "edges",   "log_trees",
-                                            "lambda2",  "dopt",     "avg_obs", "matched",
-                                            "ate_rmse", "rpe_rmse", "order",   "ec"};
-
 struct Options {
   sg::Inputs inputs;
   sg::OutputOptions output;
@@ -28,21 +25,65 @@ struct Options {
   std::string align = "se";
 };
 
+struct Row {
+  const Options& options;
+  const std::optional<sg::Trajectory>& reference;
+  const std::string& file;
+  const sg::Graph& graph;
+  sg::TreeWeights weights;
+  sg::GraphPattern variables;
+  sg::Method method;
+  std::optional<sg::Order> order_ = {};
+  std::optional<sg::TrajectoryError> error_ = {};
+
+  const sg::Order& order() {
+    return sg::once(order_, [&] { return sg::order_by(method, options.method, graph, variables); });
+  }
+  sg::Wide ec() { return sg::elimination_complexity(variables.pattern, order()); }
+  double log_det() {
+    const sg::Problem problem = sg::make_problem(graph);
+    return sg::log_det_information(problem, sg::start_values(problem), order());
+  }
+  const sg::TrajectoryError& error() {
+    return sg::once(error_, [&] {
+      return sg::trajectory_error(sg::trajectory(graph), reference.value(),
+                                  sg::alignment(options.align).value());
+    });
+  }
+};
+
+const std::vector<sg::Column<Row>> columns{
+    {"file", "The file", [](Row& row) { return row.file; }, "several files"},
+    {"vertices", "How many there are", [](Row& row) { return row.graph.vertices(); }},
+    {"edges", "How many there are", [](Row& row) { return row.graph.edges(); }},
+    {"log_trees", "Logarithm of the weighted number of spanning trees",
+     [](Row& row) { return sg::log_trees(row.graph, row.weights); }},
+    {"lambda2", "Algebraic connectivity",
+     [](Row& row) { return sg::algebraic_connectivity(row.graph, row.weights); }},
+    {"dopt", "Log determinant of the information at the file's estimate", &Row::log_det},
+    {"avg_obs", "Mean number of observations a landmark",
+     [](Row& row) { return sg::average_observations(row.graph); }},
+    {"matched", "Poses that graph and reference share",
+     [](Row& row) { return row.error().matched; }, "--reference"},
+    {"ate_rmse", "Absolute trajectory error, its root mean square",
+     [](Row& row) { return row.error().ate; }, "--reference"},
+    {"rpe_rmse", "Relative pose error, its root mean square",
+     [](Row& row) { return row.error().rpe; }, "--reference"},
+    {"order", "The ordering", [](Row& row) { return row.method.label; }},
+    {"ec", "Elimination complexity", &Row::ec},
+};
+
 void add_options(sg::Command& command, Options& options) {
   sg::add_inputs(command, options.inputs);
-  command.app
-      .add_option("--weights", options.weights,
-                  "Of log_trees and lambda2: unit (default),\ntranslation, rotation, dopt")
-      ->type_name("KIND")
-      ->check(CLI::IsMember({"unit", "translation", "rotation", "dopt"}).description(""));
+  sg::add_weights(command.app, options.weights, "Of log_trees and lambda2");
   command.app
       .add_option("--reference", options.reference, "A graph or a TUM trajectory, for ATE and RPE")
-      ->type_name("FILE");
+      ->option_text("FILE");
   command.app
       .add_option("--align", options.align,
                   "Move onto it: se (rigidly; the default), sim (and\nscale), none")
-      ->type_name("HOW")
-      ->check(CLI::IsMember({"se", "sim", "none"}).description(""));
+      ->option_text("HOW")
+      ->check(sg::one_of({"se", "sim", "none"}));
   sg::add_method(command, options.method);
   sg::add_output(command, options.output);
   sg::add_table(command, options.table, columns);
@@ -60,77 +101,38 @@ sg::Trajectory read_trajectory(const std::string& path, const sg::ReadOptions& o
   return result;
 }
 
-sg::Cell cell(const std::optional<double>& value) {
-  return value ? sg::Cell(*value) : sg::Cell();
-}
-
-sg::Cell log_det(const sg::Graph& graph, const sg::Order& order) {
-  const sg::Problem problem = sg::make_problem(graph);
-  return sg::log_det_information(problem, sg::start_values(problem), order);
-}
-
-void score_file(sg::Table& table, const std::string& path, const Options& options,
-                const std::optional<sg::Trajectory>& reference) {
-  const sg::Graph graph = sg::read(options.inputs, path);
-  const sg::TreeWeights weights = sg::tree_weights(options.weights).value();
-  const sg::GraphPattern variables = sg::graph_pattern(graph);
-  const sg::Method method = sg::methods(options.method, graph).front();
-  const bool eliminates = table.wants("ec") || table.wants("dopt");
-  const sg::Order order =
-      eliminates ? sg::order_by(method, options.method, graph, variables) : sg::Order{};
-  sg::TrajectoryError error;
-  if (reference && (table.wants("ate_rmse") || table.wants("rpe_rmse") || table.wants("matched"))) {
-    error = sg::trajectory_error(sg::trajectory(graph), *reference,
-                                 sg::alignment(options.align).value());
+// Columns of a reference are asked for in vain without one.
+void check_columns(const Options& options) {
+  for (const auto& column : columns) {
+    const auto& asked = options.table.columns;
+    const bool wanted = std::find(asked.begin(), asked.end(), column.name) != asked.end();
+    if (wanted && column.needs == "--reference" && options.reference.empty())
+      throw sg::usage_error("column '" + column.name + "' wants a --reference");
   }
-  table.row({path, std::int64_t{graph.vertices()}, std::int64_t{graph.edges()},
-             table.wants("log_trees") ? sg::Cell(sg::log_trees(graph, weights)) : sg::Cell(),
-             table.wants("lambda2") ? cell(sg::algebraic_connectivity(graph, weights)) : sg::Cell(),
-             table.wants("dopt") ? log_det(graph, order) : sg::Cell(),
-             cell(sg::average_observations(graph)), static_cast<std::int64_t>(error.matched),
-             cell(error.ate), cell(error.rpe), method.label,
-             table.wants("ec") ? sg::Cell(sg::elimination_complexity(variables.pattern, order))
-                               : sg::Cell()});
 }
 
-bool is_trajectory_column(std::string_view name) {
-  return name == "matched" || name == "ate_rmse" || name == "rpe_rmse";
-}
-
-// All columns, without `file` where there is one file, and without those that want a reference
-// where there is none.
-sg::TableOptions with_default_columns(const Options& options) {
-  sg::TableOptions table = options.table;
-  for (const auto& name : table.columns) {
-    if (is_trajectory_column(name) && options.reference.empty())
-      throw sg::usage_error("column '" + name + "' wants a --reference");
-  }
-  if (!table.columns.empty()) return table;
-  for (const auto name : columns) {
-    if (name == "file" && options.inputs.paths.size() < 2) continue;
-    if (is_trajectory_column(name) && options.reference.empty()) continue;
-    table.columns.emplace_back(name);
-  }
-  return table;
-}
-
-void score(const Options& options) {
+void score(const sg::Command& /*command*/, const Options& options) {
   sg::check(options.method);
-  const sg::TableOptions table_options = with_default_columns(options);
+  check_columns(options);
+  const sg::Given given{{"several files", options.inputs.paths.size() > 1},
+                        {"--reference", !options.reference.empty()}};
+  sg::Output output(options.output.path);
+  sg::Table table(options.table, columns, given, output);
   std::optional<sg::Trajectory> reference;
   if (!options.reference.empty())
     reference = read_trajectory(options.reference, options.inputs.options);
-  sg::Output output(options.output.path);
-  sg::Table table(table_options, columns, output);
-  for (const auto& path : options.inputs.paths) score_file(table, path, options, reference);
+  const sg::TreeWeights weights = sg::tree_weights(options.weights).value();
+  for (const auto& path : options.inputs.paths) {
+    const sg::Graph graph = sg::read(options.inputs, path);
+    const sg::Method method = sg::methods(options.method, graph).front();
+    table.row({options, reference, path, graph, weights, sg::graph_pattern(graph), method});
+  }
   output.commit();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-score", "Score what a graph is worth, and what it costs.");
-  Options options;
-  add_options(command, options);
-  return sg::run(command, argc, argv, [&] { score(options); });
+  return sg::run(sg::Command("sg-score", "Score what a graph is worth, and what it costs."), argc,
+                 argv, add_options, score);
 }

@@ -1,4 +1,4 @@
-// sg-solve: batch optimization.
+// sg-solve: optimize a graph in batch; or time its elimination, or tell its chi-square.
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 
@@ -18,9 +18,32 @@
 
 namespace {
 
-const std::vector<std::string_view> time_columns{"order",    "backend", "threads", "variables",
-                                                 "factors",  "ec",      "runs",    "plan_s",
-                                                 "median_s", "s_per_ec"};
+// How long elimination takes, as --time measures it.
+struct Timing {
+  std::string order;
+  std::string backend;
+  int threads;
+  sg::Index variables;
+  sg::Index factors;
+  sg::Wide ec;
+  int runs;
+  double plan_s;
+  double median_s;
+};
+
+const std::vector<sg::Column<Timing>> time_columns{
+    {"order", "The ordering", &Timing::order},
+    {"backend", "What eliminates", &Timing::backend},
+    {"threads", "How many it may use", &Timing::threads},
+    {"variables", "How many are eliminated", &Timing::variables},
+    {"factors", "Edges of the graph", &Timing::factors},
+    {"ec", "Elimination complexity", &Timing::ec},
+    {"runs", "Eliminations that were timed", &Timing::runs},
+    {"plan_s", "Seconds once spent on the structure", &Timing::plan_s},
+    {"median_s", "Median of the elimination times, in seconds", &Timing::median_s},
+    {"s_per_ec", "The same for a unit of elimination complexity",
+     [](Timing& timing) { return timing.median_s / sg::to_double(timing.ec); }},
+};
 
 struct Options {
   sg::Input input;
@@ -32,7 +55,7 @@ struct Options {
   std::string kernel;
   sg::MethodOptions method;
   std::string backend{sg::backends().front().name};
-  int threads = 0;
+  int threads = tbb::info::default_concurrency();
   int runs = 0;
   bool chi2 = false;
   bool from_edges = false;
@@ -105,6 +128,8 @@ double median(std::vector<double> times) {
 }
 
 void print_times(const Options& options, const sg::Problem& problem, const sg::Values& values) {
+  sg::Output output(options.output.path);
+  sg::Table table(options.table, time_columns, {}, output);
   const auto [label, order] = named_order(options, *problem.graph);
   const sg::Pattern& pattern = problem.variables.pattern;
   sg::LinearSystem system = sg::make_linear_system(problem);
@@ -118,12 +143,8 @@ void print_times(const Options& options, const sg::Problem& problem, const sg::V
     if (!solver.eliminate(system, {})) throw sg::singular_error(problem, order, system);
     times.push_back(seconds_since(begin));
   }
-  const sg::Wide ec = sg::elimination_complexity(pattern, order);
-  sg::Output output(options.output.path);
-  sg::Table table(options.table, time_columns, output);
-  table.row({label, options.backend, std::int64_t{options.threads},
-             std::int64_t{pattern.variables()}, std::int64_t{problem.graph->edges()}, ec,
-             std::int64_t{options.runs}, plan, median(times), median(times) / sg::to_double(ec)});
+  table.row({label, options.backend, options.threads, pattern.variables(), problem.graph->edges(),
+             sg::elimination_complexity(pattern, order), options.runs, plan, median(times)});
   output.commit();
 }
 
@@ -169,12 +190,11 @@ void solve(const sg::Command& command, const Options& options, const sg::Problem
                      sg::estimate_changes(problem, values, moved(problem)));
 }
 
-void run(const sg::Command& command, Options options) {
+void run(const sg::Command& command, const Options& options) {
   parse_kernel(options.kernel);  // a wrong call is told before a long read
   if (options.chi2 && options.runs > 0) throw sg::usage_error("--chi2 or --time, not both");
   sg::find_backend(options.backend);
   sg::check(options.method);
-  if (options.threads == 0) options.threads = tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
   const sg::Graph graph = sg::read(options.input);
@@ -194,8 +214,6 @@ void run(const sg::Command& command, Options options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-solve", "Optimize a graph; time its elimination.");
-  Options options;
-  add_options(command, options);
-  return sg::run(command, argc, argv, [&] { run(command, options); });
+  return sg::run(sg::Command("sg-solve", "Optimize a graph; time its elimination."), argc, argv,
+                 add_options, run);
 }

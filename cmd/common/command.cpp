@@ -35,11 +35,6 @@ void add_read_options(Command& command, ReadOptions& options) {
       ->allow_extra_args(false);
 }
 
-void add_output(CLI::App& app, OutputOptions& output) {
-  app.add_option("-o,--output", output.path, "Write to FILE, whole or not at all")
-      ->option_text("FILE");
-}
-
 int report(const Command& command, const Error& error) {
   std::cerr << command.name << ": " << message(error) << '\n';
   return static_cast<int>(error.fault);
@@ -66,7 +61,11 @@ int print(const std::string& text) {
 
 int guarded(const Command& command, const std::function<int()>& work) {
   try {
-    return work();
+    try {
+      return work();
+    } catch (const Answer& answer) {
+      return print(answer.text);
+    }
   } catch (const ClosedPipe&) {
     return 0;
   } catch (const Error& error) {
@@ -163,6 +162,10 @@ void add_filter_output(CLI::App& app, OutputOptions& output) {
   app.add_flag_callback(
       "--no-trace-comment", [&output] { output.trace_comment = false; },
       "Leave no comment of this call");
+}
+
+void add_output(CLI::App& app, OutputOptions& output, const std::string& what) {
+  app.add_option("-o,--output", output.path, what)->option_text("FILE");
 }
 
 void add_output(Command& command, OutputOptions& output) {

@@ -23,12 +23,26 @@ struct Command {
   std::string call;      // the call as typed, for the comment that a filter leaves; set by run()
 };
 
+// Thrown where a call asks to be told something instead of work: the text is printed, the status 0.
+struct Answer {
+  std::string text;
+};
+
 // Parses, calls `work`, and returns the exit status: 0; or 1, 2, 3 after one line on standard
 // error.
 // --help, --version and a reader that closes the pipe end with 0.
 int run(Command& command, int argc, char** argv, const std::function<void()>& work);
 // The same where the work itself knows its status (sg-check).
 int run_status(Command& command, int argc, char** argv, const std::function<int()>& work);
+
+// The main of most commands: add(command, options), parse, and work(command, options).
+template <class Options>
+int run(Command&& command, int argc, char** argv, void (*add)(Command&, Options&),
+        void (*work)(const Command&, const Options&)) {
+  Options options;
+  add(command, options);
+  return run(command, argc, argv, [&] { work(command, options); });
+}
 
 // "sg-ec: text" on standard error, unless -q.
 void warn(const Command& command, const std::string& text);
@@ -58,6 +72,8 @@ struct OutputOptions {
   std::string path;
   bool trace_comment = true;
 };
+void add_output(CLI::App& app, OutputOptions& output,
+                const std::string& what = "Write to FILE, whole or not at all");
 void add_output(Command& command, OutputOptions& output);
 void add_filter_output(Command& command, OutputOptions& output);
 void add_filter_output(CLI::App& app, OutputOptions& output);  // of one of a command's jobs

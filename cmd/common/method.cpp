@@ -1,5 +1,7 @@
 #include "cmd/common/method.h"
 
+#include "cmd/common/options.h"
+
 namespace sg {
 namespace {
 
@@ -12,8 +14,7 @@ void add(Command& command, MethodOptions& options, const char* type, int most) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->expected(1, most);
-  command.app.add_option("--seed", options.seed, "Seed of orderings that draw (default: 0)")
-      ->option_text("N");
+  add_seed(command.app, options.seed, "Seed of orderings that draw");
 }
 
 }  // namespace

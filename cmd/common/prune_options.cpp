@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/text/words.h"
+#include "cmd/common/options.h"
 
 namespace sg {
 namespace {
@@ -12,36 +12,31 @@ std::string counted(std::ptrdiff_t count, std::size_t of, const char* things) {
   return std::to_string(count) + " of " + std::to_string(of) + " " + things;
 }
 
-}  // namespace
-
-void add_candidates(Command& command, std::string& name) {
-  command.app
-      .add_option("--candidates", name,
-                  "What may go: observations, loops or both;\n"
-                  "observations if there are landmarks, else loops")
-      ->type_name("KIND")
-      ->check(CLI::IsMember({"observations", "loops", "both"}).description(""));
-}
-
+// The kind of that name; an empty name means the graph's natural candidates.
 Candidates candidates_named(const std::string& name, const Graph& graph) {
   if (name == "observations") return Candidates::observations;
   if (name == "loops") return Candidates::loops;
   return name == "both" ? Candidates::both : natural_candidates(graph);
 }
 
-CLI::Validator at_least_one() {
-  return {[](std::string& text) {
-            const auto value = parse<Index>(text);
-            return value && *value >= 1 ? std::string()
-                                        : "wants a whole number of 1 or more, not '" + text + "'";
-          },
-          ""};
+}  // namespace
+
+void add_pruning(Command& command, PruneOptions& options) {
+  command.app
+      .add_option("--candidates", options.candidates,
+                  "What may go: observations, loops or both;\n"
+                  "observations if there are landmarks, else loops")
+      ->option_text("KIND")
+      ->check(one_of({"observations", "loops", "both"}));
+  add_pruned_output(command, options);
 }
 
-void add_min_obs(Command& command, Index& min_obs) {
-  command.app.add_option("--min-obs", min_obs, "Landmarks with fewer observations go (default: 1)")
-      ->type_name("M")
+void add_pruned_output(Command& command, PruneOptions& options) {
+  command.app
+      .add_option("--min-obs", options.min_obs, "Landmarks with fewer observations go (default: 1)")
+      ->option_text("M")
       ->check(at_least_one());
+  add_filter_output(command, options.output);
 }
 
 void add_amount(Command& command, Amount& amount) {
@@ -64,15 +59,24 @@ void add_amount(Command& command, Amount& amount) {
   });
 }
 
-std::size_t kept_count(const Amount& amount, std::size_t candidates, Candidates kind,
-                       const ReadOptions& options) {
+Prunable read_prunable(const PruneOptions& options) {
+  Prunable result;
+  result.graph = read(options.input);
+  result.poses = pose_index(result.graph);
+  result.kind = candidates_named(options.candidates, result.graph);
+  result.candidates = candidate_edges(result.graph, result.poses, result.kind);
+  return result;
+}
+
+std::size_t kept_count(const Amount& amount, const Prunable& prunable, const ReadOptions& options) {
+  const std::size_t candidates = prunable.candidates.size();
   if (amount.rate) return (candidates + *amount.rate / 2) / *amount.rate;
   if (amount.fraction)
     return static_cast<std::size_t>(
         std::llround(*amount.fraction * static_cast<double>(candidates)));
   if (amount.count) return std::min(candidates, static_cast<std::size_t>(*amount.count));
   const Graph like = read_graph(amount.like, options);
-  return std::min(candidates, candidate_edges(like, pose_index(like), kind).size());
+  return std::min(candidates, candidate_edges(like, pose_index(like), prunable.kind).size());
 }
 
 Changes pruned(const Command& command, const Graph& graph, const PoseIndex& poses, Index min_obs,
@@ -88,6 +92,20 @@ Changes pruned(const Command& command, const Graph& graph, const PoseIndex& pose
   changes.drop_vertex = std::move(removal.vertex);
   changes.drop_edge = std::move(removal.edge);
   return changes;
+}
+
+void write_pruned(const Command& command, const PruneOptions& options, const Prunable& prunable,
+                  Removal removal) {
+  const auto& [graph, poses, kind, candidates] = prunable;
+  write_filtered(command, options.output, graph,
+                 pruned(command, graph, poses, options.min_obs, std::move(removal)));
+}
+
+void prune(const Command& command, const PruneOptions& options,
+           const std::function<std::vector<bool>(const Prunable&)>& kept) {
+  const Prunable prunable = read_prunable(options);
+  write_pruned(command, options, prunable,
+               removal_of_rest(prunable.graph, prunable.candidates, kept(prunable)));
 }
 
 }  // namespace sg

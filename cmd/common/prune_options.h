@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -10,13 +11,16 @@
 
 namespace sg {
 
-// --candidates observations|loops|both
-void add_candidates(Command& command, std::string& name);
-// The kind of that name; an empty name means the graph's natural candidates.
-Candidates candidates_named(const std::string& name, const Graph& graph);
-
-// --min-obs M: landmarks left with fewer observations leave.
-void add_min_obs(Command& command, Index& min_obs);
+struct PruneOptions {
+  Input input;             // add_input
+  std::string candidates;  // --candidates observations|loops|both; empty: the graph's natural ones
+  Index min_obs = 1;       // --min-obs: landmarks left with fewer observations leave
+  OutputOptions output;
+};
+// --candidates, --min-obs, and the output.
+void add_pruning(Command& command, PruneOptions& options);
+// The same for a command whose candidates are its own affair.
+void add_pruned_output(Command& command, PruneOptions& options);
 
 // -r, -p, -k, --like: how many candidates stay. Exactly one of them.
 struct Amount {
@@ -26,15 +30,26 @@ struct Amount {
   std::string like;
 };
 void add_amount(Command& command, Amount& amount);
-// At most `candidates`. --like reads its file with the options of the input.
-std::size_t kept_count(const Amount& amount, std::size_t candidates, Candidates kind,
-                       const ReadOptions& options);
 
-// CLI11's check of a number that has to be 1 or more.
-CLI::Validator at_least_one();
+// A graph about to be pruned.
+struct Prunable {
+  Graph graph;
+  PoseIndex poses;
+  Candidates kind;
+  std::vector<Index> candidates;  // edges, in file order
+};
+Prunable read_prunable(const PruneOptions& options);
+// At most all candidates. --like reads its file with the options of the input.
+std::size_t kept_count(const Amount& amount, const Prunable& prunable, const ReadOptions& options);
 
 // The changes to a graph that a removal makes, after a sweep of its landmarks; -v reports them.
 Changes pruned(const Command& command, const Graph& graph, const PoseIndex& poses, Index min_obs,
                Removal removal);
+// Writes the graph without what a removal makes leave.
+void write_pruned(const Command& command, const PruneOptions& options, const Prunable& prunable,
+                  Removal removal);
+// The same for a policy that says of every candidate whether it stays.
+void prune(const Command& command, const PruneOptions& options,
+           const std::function<std::vector<bool>(const Prunable&)>& kept);
 
 }  // namespace sg

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
+#include "cmd/common/options.h"
 #include "lib/text/words.h"
 
 namespace sg {
@@ -34,15 +34,16 @@ std::string text_of_cell(const Cell& cell) {
       });
     }
   };
-  return std::visit(Printer{}, cell);
+  return std::visit(Printer{}, cell.value);
 }
 
 // JSON has no infinities; integers of any length are its own numbers.
 std::string json_of_cell(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return nlohmann::json(*text).dump();
-  if (const auto* ids = std::get_if<IdList>(&cell))
+  const Cell::Value& value = cell.value;
+  if (const auto* text = std::get_if<std::string>(&value)) return nlohmann::json(*text).dump();
+  if (const auto* ids = std::get_if<IdList>(&value))
     return "[" + joined(*ids, ", ", text_of_id) + "]";
-  if (const auto* pairs = std::get_if<IdPairs>(&cell)) {
+  if (const auto* pairs = std::get_if<IdPairs>(&value)) {
     return "[" +
            joined(*pairs, ", ",
                   [](const auto& pair) {
@@ -50,80 +51,87 @@ std::string json_of_cell(const Cell& cell) {
                   }) +
            "]";
   }
-  const auto* number = std::get_if<double>(&cell);
+  const auto* number = std::get_if<double>(&value);
   const bool missing =
-      std::holds_alternative<std::monostate>(cell) || (number && !std::isfinite(*number));
+      std::holds_alternative<std::monostate>(value) || (number && !std::isfinite(*number));
   return missing ? "null" : text_of_cell(cell);
 }
 
-std::string joined(const std::vector<std::string_view>& names) {
-  return joined(names, ",", [](std::string_view name) { return std::string(name); });
+std::vector<std::string> names_of(const std::vector<Heading>& columns) {
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  return names;
 }
 
-// The names, in lines that fit a terminal beside the options.
-std::string column_help(const std::vector<std::string_view>& names) {
-  constexpr std::size_t width = 50;
-  std::string help = "Columns: ";
-  std::size_t line_end = width;
-  for (const auto name : names) {
-    if (help.size() + name.size() >= line_end) {
-      help += '\n';
-      line_end = help.size() + width;
+std::string joined(const std::vector<std::string>& words, std::string_view separator) {
+  return joined(words, separator, [](const std::string& word) { return word; });
+}
+
+// What -f help prints: a line a column.
+std::string meanings(const std::vector<NamedTable>& tables) {
+  std::string text;
+  for (const auto& [title, columns] : tables) {
+    if (!title.empty()) text += title + "\n";
+    std::size_t width = 0;
+    for (const auto& column : columns) width = std::max(width, column.name.size());
+    for (const auto& [name, what, needs] : columns) {
+      text += name + std::string(width + 2 - name.size(), ' ') + what;
+      text += needs.empty() ? "\n" : " (with " + needs + ")\n";
     }
-    help += std::string(name) + ",";
   }
-  help.pop_back();
-  return help;
+  return text;
 }
 
 }  // namespace
 
-void add_table(Command& command, TableOptions& options,
-               const std::vector<std::string_view>& names) {
-  command.app.add_option("-f,--fields", options.columns, column_help(names))
+void add_table(Command& command, TableOptions& options, const std::vector<NamedTable>& tables) {
+  command.app
+      .add_option("-f,--fields", options.columns,
+                  wrapped_list("Columns: ", names_of(tables.front().columns), ","))
       ->delimiter(',')
-      ->option_text("NAME,...")
-      ->allow_extra_args(false);
+      ->option_text("NAME,...|help")
+      ->allow_extra_args(false)
+      ->each([help = meanings(tables)](const std::string& name) {
+        if (name == "help") throw Answer{help};
+      });
   command.app.add_flag_callback(
       "--no-header", [&options] { options.header = false; }, "No header line");
   command.app.add_flag("--json", options.json, "One JSON object a row");
 }
 
-Table::Table(const TableOptions& options, std::vector<std::string_view> names, Output& output)
-    : names_(std::move(names)), json_(options.json), output_(output) {
+std::vector<std::size_t> chosen_columns(const TableOptions& options,
+                                        const std::vector<Heading>& columns, const Given& given) {
+  const std::vector<std::string> names = names_of(columns);
+  std::vector<std::size_t> chosen;
   for (const auto& wanted : options.columns) {
-    const auto it = std::find(names_.begin(), names_.end(), wanted);
-    if (it == names_.end())
-      throw usage_error("no column '" + wanted + "'; there are " + joined(names_));
-    chosen_.push_back(static_cast<std::size_t>(it - names_.begin()));
+    const auto it = std::find(names.begin(), names.end(), wanted);
+    if (it == names.end())
+      throw usage_error("no column '" + wanted + "'; there are " + joined(names, ","));
+    chosen.push_back(static_cast<std::size_t>(it - names.begin()));
   }
-  if (options.columns.empty()) {
-    chosen_.resize(names_.size());
-    std::iota(chosen_.begin(), chosen_.end(), 0);
+  if (!options.columns.empty()) return chosen;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const std::string& needs = columns[k].needs;
+    if (needs.empty() || given.at(needs)) chosen.push_back(k);
   }
-  if (json_ || !options.header) return;
-  std::string line;
-  for (const std::size_t k : chosen_) line += (line.empty() ? "" : "\t") + std::string(names_[k]);
-  output_.write(line + "\n");
+  return chosen;
 }
 
-bool Table::wants(std::string_view name) const {
-  return std::any_of(chosen_.begin(), chosen_.end(),
-                     [&](std::size_t k) { return names_[k] == name; });
+void write_header(const std::vector<std::string>& names, Output& output) {
+  output.write(joined(names, "\t") + "\n");
 }
 
-void Table::row(const std::vector<Cell>& cells) {
+void write_row(const std::vector<std::string>& names, const std::vector<Cell>& cells, bool json,
+               Output& output) {
   std::string line;
-  for (std::size_t i = 0; i < chosen_.size(); ++i) {
-    const Cell& cell = cells.at(chosen_[i]);
-    if (json_) {
-      line +=
-          (i ? ", " : "{") + nlohmann::json(names_[chosen_[i]]).dump() + ": " + json_of_cell(cell);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (json) {
+      line += (k ? ", " : "{") + nlohmann::json(names[k]).dump() + ": " + json_of_cell(cells[k]);
     } else {
-      line += (i ? "\t" : "") + text_of_cell(cell);
+      line += (k ? "\t" : "") + text_of_cell(cells[k]);
     }
   }
-  output_.write(line + (json_ ? "}\n" : "\n"));
+  output.write(line + (json ? "}\n" : "\n"));
 }
 
 }  // namespace sg

@@ -83,4 +83,11 @@ Groups clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
   return reversed(result);
 }
 
+Wide elimination_complexity(const BayesTree& tree) {
+  Wide ec = 0;
+  for (Index c = 0; c < tree.cliques(); ++c)
+    ec += elimination_cost(tree.frontal_dim[c], tree.total_dim[c]);
+  return ec;
+}
+
 }  // namespace sg

@@ -23,6 +23,8 @@ struct BayesTree {
   Index cliques() const { return static_cast<Index>(parent.size()); }
 };
 BayesTree bayes_tree(const Symbolic& symbolic);
+// EC_BT: the sum over cliques of d_f (d_f + d_s)^2.
+Wide elimination_complexity(const BayesTree& tree);
 
 // The positions of every clique's frontal variables, ascending.
 Groups clique_frontals(const BayesTree& tree);

@@ -62,8 +62,7 @@ Score column_score(const Symbolic& symbolic) {
 Score score(const Symbolic& symbolic) {
   Score score = column_score(symbolic);
   const BayesTree tree = bayes_tree(symbolic);
-  for (Index c = 0; c < tree.cliques(); ++c)
-    score.ec_bt += elimination_cost(tree.frontal_dim[c], tree.total_dim[c]);
+  score.ec_bt = elimination_complexity(tree);
   score.cliques = tree.cliques();
   return score;
 }

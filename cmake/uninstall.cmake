@@ -1,0 +1,18 @@
+# cmake -DMANIFEST=FILE -P uninstall.cmake: removes what cmake --install listed in FILE, and the folders named sgtools that
+# are empty then.
+cmake_policy(VERSION 3.22)
+if(NOT EXISTS "${MANIFEST}")
+  message(FATAL_ERROR "nothing to remove: there is no ${MANIFEST}, which make install writes")
+endif()
+file(STRINGS "${MANIFEST}" files)
+foreach(file ${files})
+  set(file "$ENV{DESTDIR}${file}")
+  file(REMOVE "${file}")
+  get_filename_component(folder "${file}" DIRECTORY)
+  file(GLOB left "${folder}/*")
+  while(folder MATCHES "/sgtools(/|$)" AND NOT left)
+    file(REMOVE_RECURSE "${folder}")
+    get_filename_component(folder "${folder}" DIRECTORY)
+    file(GLOB left "${folder}/*")
+  endwhile()
+endforeach()

@@ -1,0 +1,33 @@
+// sg-gen sine: the paper's simulation.
+#include "lib/world/sine.h"
+
+#include "cmd/gen/options.h"
+#include "cmd/gen/worlds.h"
+
+namespace sg {
+
+Maker add_sine(CLI::App& app) {
+  const auto world = std::make_shared<Sine>();
+  const auto sensor = std::make_shared<SensorOptions>();
+  add_count(app, "-n,--poses", world->poses, 1, "Poses");
+  add_length(app, "--step", world->step, "Metres along the path from pose to pose");
+  add_size(app, "--amplitude", world->amplitude, "Of the path, metres");
+  add_length(app, "--wavelength", world->wavelength, "Of the path, metres");
+  add_count(app, "-l,--landmarks", world->landmarks, 0, "Landmarks in the slab; 0: by density");
+  add_length(app, "--density", world->density, "Landmarks a square metre of the slab");
+  add_length(app, "--width", world->width, "Slab: metres to each side of the axis");
+  add_size(app, "--height", world->height, "Slab: metres above and below the path");
+  add_triangulation(app, world->landmark);
+  add_sensor(app, *sensor);
+  add_view(app, world->optics);
+  add_sensor_noise(app, world->optics);
+  add_landmark_noise(app, *world);
+  return [world, sensor] {
+    world->sensor = chosen(*sensor);
+    if (camera(world->sensor) && world->optics.view >= 180)
+      throw usage_error("a camera's --fov is below 180 degrees");
+    return writer(sine(*world));
+  };
+}
+
+}  // namespace sg
