@@ -13,13 +13,13 @@ struct NamedTree {
   sg::Order order;
   sg::BayesTree tree;
   std::vector<sg::Index> depth;
-  std::optional<sg::Groups> frontals_ = {};
-  std::optional<sg::Groups> separators_ = {};
+  std::optional<sg::Lists<>> frontals_ = {};
+  std::optional<sg::Lists<>> separators_ = {};
 
-  const sg::Groups& frontals() {
+  const sg::Lists<>& frontals() {
     return sg::once(frontals_, [&] { return sg::clique_frontals(tree); });
   }
-  const sg::Groups& separators() {
+  const sg::Lists<>& separators() {
     return sg::once(separators_, [&] {
       return sg::clique_separators(sg::ordered(variables.pattern, order), tree);
     });
@@ -74,18 +74,12 @@ const std::vector<sg::Column<Row>> columns{
      [](Row& row) { return sg::elimination_cost(row.frontal_dim(), row.total_dim()); }},
 };
 
-std::string joined(const sg::IdList& list) {
-  std::string text;
-  for (const auto id : list) text += (text.empty() ? "" : " ") + std::to_string(id);
-  return text;
-}
-
 void print_dot(NamedTree& named, sg::Output& output) {
   output.write("digraph bayes_tree {\n  node [shape=box, style=rounded];\n");
   for (sg::Index c = 0; c < named.tree.cliques(); ++c) {
     const Row row{named, c};
-    const std::string separator = joined(row.separator());
-    output.write("  c" + std::to_string(c) + " [label=\"" + joined(row.frontal()) +
+    const std::string separator = sg::text(row.separator());
+    output.write("  c" + std::to_string(c) + " [label=\"" + sg::text(row.frontal()) +
                  (separator.empty() ? "" : " : " + separator) + "\"];\n");
     if (row.parent())
       output.write("  c" + std::to_string(*row.parent()) + " -> c" + std::to_string(c) + ";\n");

@@ -7,6 +7,7 @@
 #include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/bayes_tree.h"
+#include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 
 namespace {
@@ -137,8 +138,8 @@ using Show = std::function<void(const Subject&)>;
 void replay_rows(const sg::Graph& graph, const std::string& file, const Options& options,
                  const Show& show) {
   const sg::Replay replay = sg::replay(graph, sg::pose_index(graph), options.min_obs);
-  const sg::ByStep vertices = sg::by_step(replay.vertex_step, replay.steps);
-  const sg::ByStep edges = sg::by_step(replay.edge_step, replay.steps);
+  const sg::Lists<> vertices = sg::grouped(replay.vertex_step, replay.steps);
+  const sg::Lists<> edges = sg::grouped(replay.edge_step, replay.steps);
   std::vector<bool> vertex_in(graph.vertices(), false);
   std::vector<bool> edge_in(graph.edges(), false);
   sg::Progress progress("sg-ec", "step", replay.steps);

@@ -98,9 +98,9 @@ void print_dot(const sg::Pattern& pattern, const Names& id_of, const sg::Order& 
                const std::vector<sg::EliminationStep>& steps, sg::Output& output) {
   EliminationGraph left{order, {}, {}};
   std::sort(left.nodes.begin(), left.nodes.end());
-  for (sg::Index r = 0; r < pattern.rows(); ++r) {
-    for (const sg::Index a : pattern.row(r)) {
-      for (const sg::Index b : pattern.row(r)) {
+  for (sg::Index r = 0; r < pattern.rows.size(); ++r) {
+    for (const sg::Index a : pattern.rows[r]) {
+      for (const sg::Index b : pattern.rows[r]) {
         if (a < b) left.given.emplace(a, b);
       }
     }

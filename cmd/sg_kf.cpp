@@ -55,7 +55,7 @@ void prune(const sg::Command& command, const Options& options) {
     throw sg::usage_error("how many keyframes? Give -r, or --dist and --angle or one of them");
   const sg::Graph graph = sg::read(options.pruning.input);
   const sg::PoseIndex poses = sg::pose_index(graph);
-  const sg::Odometry odometry = sg::odometry_steps(graph, poses);
+  const sg::Lists<> odometry = sg::odometry_steps(graph, poses);
   const auto keyframes = sg::choose_keyframes(graph, poses, odometry, rule);
   sg::Keyframing keyframing =
       sg::keyframing(graph, poses, odometry, keyframes, options.loops == "move");

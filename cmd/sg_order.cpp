@@ -3,7 +3,8 @@
 #include <ctime>
 #include <iostream>
 
-#include "cmd/common/command.h"
+#include "cmd/common/estimates.h"
+#include "cmd/common/method.h"
 #include "cmd/common/options.h"
 #include "formats/order_file.h"
 #include "formats/reorder.h"
@@ -16,7 +17,7 @@ namespace {
 struct Options {
   sg::Input input;
   sg::OutputOptions output;
-  std::string method = "colamd";
+  std::string method = sg::default_method;
   std::string apply;
   bool print = false;
   std::vector<sg::Id> last;
@@ -118,22 +119,12 @@ void print_ids(const Options& options, const sg::Graph& graph, const sg::GraphPa
   output.commit();
 }
 
-// VERTEX lines for a file that has none, before its first edge.
-sg::Edit vertex_lines(const sg::Graph& graph, const std::vector<sg::Index>& vertices) {
-  const sg::Problem problem = sg::make_problem(graph);
-  const sg::Values values = sg::initial_values(problem);
-  sg::Edit edit{graph.edge_line.front(), graph.edge_line.front(), ""};
-  for (const sg::Index v : vertices) {
-    edit.replacement += sg::vertex_line(problem, values, v);
-  }
-  return edit;
-}
-
 void write_graph(const sg::Command& command, const Options& options, const sg::Graph& graph,
                  const std::vector<sg::Index>& vertices) {
   sg::Changes changes = sg::unchanged(graph);
   if (graph.edges_only) {
-    changes.edits.push_back(vertex_lines(graph, vertices));
+    const sg::Problem problem = sg::make_problem(graph);
+    changes.edits.push_back(sg::vertex_lines(problem, sg::initial_values(problem), vertices));
   } else {
     changes.edits = sg::reordered(graph, vertices);
   }

@@ -39,11 +39,12 @@ double full(const sg::Sizes& sizes, double /*r*/) {
 
 const std::vector<sg::Column<Row>> columns{
     {"r", "The rate: one pose, or one observation, in r is kept", &Row::r},
-    {"full", "(L + X) X^2: without pruning", [](Row& row) { return row.by(full); }, "sizes"},
+    {"full", "(L + X) X^2: without pruning", [](Row& row) { return row.by(full); },
+     "a graph or counts"},
     {"kf", "(L + X/r) (X/r)^2: keyframes", [](Row& row) { return row.by(sg::predict_keyframes); },
-     "sizes"},
+     "a graph or counts"},
     {"dec", "(L + 9 X) (X/r)^2: decimation",
-     [](Row& row) { return row.by(sg::predict_decimation); }, "sizes"},
+     [](Row& row) { return row.by(sg::predict_decimation); }, "a graph or counts"},
     {"ec", "The given one", &Row::ec, "--ec"},
     {"ec_kf", "By 1/r^3, what keyframes come close to",
      [](Row& row) { return row.scaled(1, row.r * row.r * row.r); }, "--ec"},
@@ -102,8 +103,8 @@ void predict(const sg::Command& /*command*/, const Options& options) {
   }
   const bool sized = options.poses || !options.ec || !options.input.path.empty();
   sg::Output output(options.output.path);
-  sg::Table table(options.table, columns, {{"sizes", sized}, {"--ec", options.ec.has_value()}},
-                  output);
+  sg::Table table(options.table, columns,
+                  {{"a graph or counts", sized}, {"--ec", options.ec.has_value()}}, output);
   const auto sizes = sized ? std::optional(sizes_of(options)) : std::nullopt;
   for (const double r : options.rates) table.row({r, sizes, options.ec});
   output.commit();

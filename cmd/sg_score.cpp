@@ -9,9 +9,10 @@
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/geometry/numbers.h"
-#include "lib/score/connectivity.h"
+#include "lib/graph/summary.h"
 #include "lib/score/dopt.h"
 #include "lib/score/trajectory.h"
+#include "lib/trees/connectivity.h"
 
 namespace {
 

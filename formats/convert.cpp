@@ -5,7 +5,7 @@
 
 #include "formats/dot.h"
 #include "formats/isam.h"
-#include "formats/metis.h"
+#include "formats/metis_file.h"
 #include "formats/mtx.h"
 #include "formats/toro.h"
 #include "formats/tum.h"

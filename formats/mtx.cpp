@@ -18,7 +18,7 @@ void write_head(std::string_view what, std::int64_t n, std::int64_t entries, Sin
 }
 
 void write_block(const Adjacency& adjacency, Sink& sink) {
-  const auto below = static_cast<std::int64_t>(adjacency.neighbours.size() / 2);
+  const auto below = static_cast<std::int64_t>(adjacency.items.size() / 2);
   write_head("block pattern of A^T A: a row a variable, by ascending id", adjacency.size(),
              adjacency.size() + below, sink);
   for (Index j = 0; j < adjacency.size(); ++j) {

@@ -1,5 +1,7 @@
 #include "cmd/common/estimates.h"
 
+#include <numeric>
+
 #include "lib/text/words.h"
 
 namespace sg {
@@ -18,23 +20,23 @@ Edit numbers_edit(const Problem& problem, const Values& values, Index v) {
   return {at(first.data()), at(rest.data()), estimate_text(problem, values, v)};
 }
 
-Edit vertex_lines(const Problem& problem, const Values& values) {
-  const Graph& graph = *problem.graph;
-  Edit edit{graph.edge_line.front(), graph.edge_line.front(), ""};
-  for (Index v = 0; v < graph.vertices(); ++v) {
-    edit.replacement += vertex_line(problem, values, v);
-  }
+}  // namespace
+
+Edit vertex_lines(const Problem& problem, const Values& values, std::span<const Index> vertices) {
+  const Offset first_edge = problem.graph->edge_line.front();
+  Edit edit{first_edge, first_edge, ""};
+  for (const Index v : vertices) edit.replacement += vertex_line(problem, values, v);
   return edit;
 }
-
-}  // namespace
 
 Changes estimate_changes(const Problem& problem, const Values& values,
                          const std::vector<bool>& moved) {
   const Graph& graph = *problem.graph;
   Changes changes = unchanged(graph);
   if (graph.edges_only) {
-    changes.edits.push_back(vertex_lines(problem, values));
+    std::vector<Index> all(graph.vertices());
+    std::iota(all.begin(), all.end(), 0);
+    changes.edits.push_back(vertex_lines(problem, values, all));
     return changes;
   }
   for (Index v = 0; v < graph.vertices(); ++v) {

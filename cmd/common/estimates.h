@@ -1,10 +1,16 @@
 // Estimates back into a graph's text.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "formats/write.h"
 #include "lib/factor/problem.h"
 
 namespace sg {
+
+// VERTEX lines for a file that has none, before its first edge, in the order of `vertices`.
+Edit vertex_lines(const Problem& problem, const Values& values, std::span<const Index> vertices);
 
 // The changes that give every vertex of `moved` its estimate: the numbers of its VERTEX line, or,
 // in a file without VERTEX lines, a line for every vertex before the first edge. What stands behind

@@ -9,7 +9,8 @@ void add(Command& command, MethodOptions& options, const char* type, int most) {
   command.app
       .add_option("-m,--method", options.names,
                   "Orderings of sg-order(1). Default: the file's own\n"
-                  "if sg-order left one, colamd otherwise")
+                  "if sg-order left one, " +
+                      std::string(default_method) + " otherwise")
       ->option_text(type)
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -33,7 +34,7 @@ void check(const MethodOptions& options) {
 
 std::vector<Method> methods(const MethodOptions& options, const Graph& graph) {
   if (options.names.empty()) {
-    if (graph.order_method.empty()) return {{"colamd", &find_ordering("colamd")}};
+    if (graph.order_method.empty()) return {{default_method, &find_ordering(default_method)}};
     return {{"file:" + graph.order_method, &find_ordering("file")}};
   }
   std::vector<Method> chosen;

@@ -9,8 +9,10 @@
 
 namespace sg {
 
+constexpr const char* default_method = "colamd";
+
 struct MethodOptions {
-  std::vector<std::string> names;  // empty: the file's order if sg-order left one, else colamd
+  std::vector<std::string> names;  // empty: the file's order if sg-order left one, else the default
   std::uint64_t seed = 0;
 };
 void add_methods(Command& command, MethodOptions& options);  // -m NAME,...

@@ -10,9 +10,9 @@
 namespace sg {
 namespace {
 
-std::string joined(const auto& items, std::string_view separator, const auto& text) {
+std::string joined(const auto& items, std::string_view separator, const auto& word) {
   std::string all;
-  for (const auto& item : items) all += (all.empty() ? "" : std::string(separator)) + text(item);
+  for (const auto& item : items) all += (all.empty() ? "" : std::string(separator)) + word(item);
   return all;
 }
 
@@ -20,10 +20,12 @@ std::string text_of_id(std::int64_t id) {
   return std::to_string(id);
 }
 
-std::string text_of_cell(const Cell& cell) {
+}  // namespace
+
+std::string text(const Cell& cell) {
   struct Printer {
     std::string operator()(std::monostate) const { return ""; }
-    std::string operator()(const std::string& text) const { return text; }
+    std::string operator()(const std::string& word) const { return word; }
     std::string operator()(std::int64_t value) const { return std::to_string(value); }
     std::string operator()(Wide value) const { return to_string(value); }
     std::string operator()(double value) const { return format_number(value); }
@@ -37,10 +39,12 @@ std::string text_of_cell(const Cell& cell) {
   return std::visit(Printer{}, cell.value);
 }
 
+namespace {
+
 // JSON has no infinities; integers of any length are its own numbers.
 std::string json_of_cell(const Cell& cell) {
   const Cell::Value& value = cell.value;
-  if (const auto* text = std::get_if<std::string>(&value)) return nlohmann::json(*text).dump();
+  if (const auto* word = std::get_if<std::string>(&value)) return nlohmann::json(*word).dump();
   if (const auto* ids = std::get_if<IdList>(&value))
     return "[" + joined(*ids, ", ", text_of_id) + "]";
   if (const auto* pairs = std::get_if<IdPairs>(&value)) {
@@ -54,7 +58,7 @@ std::string json_of_cell(const Cell& cell) {
   const auto* number = std::get_if<double>(&value);
   const bool missing =
       std::holds_alternative<std::monostate>(value) || (number && !std::isfinite(*number));
-  return missing ? "null" : text_of_cell(cell);
+  return missing ? "null" : text(cell);
 }
 
 std::vector<std::string> names_of(const std::vector<Heading>& columns) {
@@ -69,17 +73,17 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
 
 // What -f help prints: a line a column.
 std::string meanings(const std::vector<NamedTable>& tables) {
-  std::string text;
+  std::string all;
   for (const auto& [title, columns] : tables) {
-    if (!title.empty()) text += title + "\n";
+    if (!title.empty()) all += title + "\n";
     std::size_t width = 0;
     for (const auto& column : columns) width = std::max(width, column.name.size());
     for (const auto& [name, what, needs] : columns) {
-      text += name + std::string(width + 2 - name.size(), ' ') + what;
-      text += needs.empty() ? "\n" : " (with " + needs + ")\n";
+      all += name + std::string(width + 2 - name.size(), ' ') + what;
+      all += needs.empty() ? "\n" : " (with " + needs + ")\n";
     }
   }
-  return text;
+  return all;
 }
 
 }  // namespace
@@ -128,7 +132,7 @@ void write_row(const std::vector<std::string>& names, const std::vector<Cell>& c
     if (json) {
       line += (k ? ", " : "{") + nlohmann::json(names[k]).dump() + ": " + json_of_cell(cells[k]);
     } else {
-      line += (k ? "\t" : "") + text_of_cell(cells[k]);
+      line += (k ? "\t" : "") + text(cells[k]);
     }
   }
   output.write(line + (json ? "}\n" : "\n"));

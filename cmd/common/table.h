@@ -42,6 +42,8 @@ struct Cell {
   Cell(const std::optional<T>& maybe) : Cell(maybe ? Cell(*maybe) : Cell()) {}
 };
 
+std::string text(const Cell& cell);
+
 template <class Row>
 struct Column {
   std::string name;

@@ -42,9 +42,9 @@ void mark(Raster& raster, Index row, Index column, Cell what) {
 
 Raster raster_of(const OrderedPattern& pattern) {
   Raster raster = empty_raster(pattern.dim);
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    for (const Index i : pattern.row(r)) {
-      for (const Index j : pattern.row(r)) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    for (const Index i : pattern.rows[r]) {
+      for (const Index j : pattern.rows[r]) {
         if (i < j) mark(raster, i, j, Cell::system);
       }
     }

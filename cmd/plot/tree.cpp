@@ -4,6 +4,7 @@
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
 #include "lib/elim/bayes_tree.h"
+#include "lib/graph/lists.h"
 
 namespace sg {
 namespace {
@@ -18,41 +19,30 @@ struct Layout {
   int levels = 0;
 };
 
-struct Children {
-  std::vector<std::vector<Index>> of;  // every clique
-  std::vector<Index> roots;
-};
-
-Children children_of(const BayesTree& tree) {
-  Children children{std::vector<std::vector<Index>>(tree.cliques()), {}};
-  for (Index c = 0; c < tree.cliques(); ++c) {
-    (tree.parent[c] < 0 ? children.roots : children.of[tree.parent[c]]).push_back(c);
-  }
-  return children;
-}
-
 // Leaves side by side in the order of a walk through the tree, every other clique above the middle
 // of its children.
 Layout layout(const BayesTree& tree) {
-  const Children children = children_of(tree);
+  const Lists<> children = grouped(tree.parent, tree.cliques());
   Layout result;
   result.across.assign(tree.cliques(), 0);
   result.down.assign(tree.cliques(), 0);
-  std::vector<Index> waiting(children.roots.rbegin(), children.roots.rend());
+  std::vector<Index> waiting;
+  for (Index c = tree.cliques() - 1; c >= 0; --c) {
+    if (tree.parent[c] < 0) waiting.push_back(c);
+  }
   while (!waiting.empty()) {
     const Index c = waiting.back();
     waiting.pop_back();
-    if (children.of[c].empty()) result.across[c] = result.leaves++;
-    waiting.insert(waiting.end(), children.of[c].rbegin(), children.of[c].rend());
+    if (children[c].empty()) result.across[c] = result.leaves++;
+    waiting.insert(waiting.end(), children[c].rbegin(), children[c].rend());
   }
   for (Index c = 0; c < tree.cliques(); ++c) {
     if (tree.parent[c] >= 0) result.down[c] = result.down[tree.parent[c]] + 1;
     result.levels = std::max(result.levels, result.down[c] + 1);
   }
   for (Index c = tree.cliques() - 1; c >= 0; --c) {  // children come after their parents
-    if (children.of[c].empty()) continue;
-    result.across[c] =
-        (result.across[children.of[c].front()] + result.across[children.of[c].back()]) / 2;
+    if (children[c].empty()) continue;
+    result.across[c] = (result.across[children[c].front()] + result.across[children[c].back()]) / 2;
   }
   return result;
 }

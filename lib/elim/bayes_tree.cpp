@@ -7,16 +7,11 @@
 namespace sg {
 namespace {
 
-// The same groups, the last first.
-Groups reversed(const Groups& groups) {
-  Groups result;
-  result.begin.reserve(groups.begin.size());
-  result.begin.push_back(0);
-  result.items.reserve(groups.items.size());
-  for (Index k = groups.size() - 1; k >= 0; --k) {
-    result.items.insert(result.items.end(), groups[k].begin(), groups[k].end());
-    result.begin.push_back(static_cast<Index>(result.items.size()));
-  }
+Lists<> reversed(const Lists<>& lists) {
+  Lists<> result;
+  result.begin.reserve(lists.begin.size());
+  result.items.reserve(lists.items.size());
+  for (Index k = lists.size() - 1; k >= 0; --k) result.add(lists[k]);
   return result;
 }
 
@@ -48,20 +43,20 @@ BayesTree bayes_tree(const Symbolic& symbolic) {
   return tree;
 }
 
-Groups clique_frontals(const BayesTree& tree) {
+Lists<> clique_frontals(const BayesTree& tree) {
   return grouped(tree.clique, tree.cliques());
 }
 
-Groups clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
+Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
   const Index cliques = tree.cliques();
-  const Groups children = grouped(tree.parent, cliques);
-  std::vector<Index> row_clique(pattern.rows());
-  for (Index r = 0; r < pattern.rows(); ++r) row_clique[r] = tree.clique[pattern.row(r).front()];
-  const Groups rows = grouped(row_clique, cliques);
+  const Lists<> children = grouped(tree.parent, cliques);
+  std::vector<Index> row_clique;
+  for (Index r = 0; r < pattern.rows.size(); ++r)
+    row_clique.push_back(tree.clique[pattern.rows[r].front()]);
+  const Lists<> rows = grouped(row_clique, cliques);
 
   // From the leaves up: list c belongs to clique (cliques - 1 - c) until the end.
-  Groups result;
-  result.begin.push_back(0);
+  Lists<> result;
   std::vector<Index> seen(pattern.variables(), -1);
   for (Index c = cliques - 1; c >= 0; --c) {
     const auto take = [&](std::span<const Index> positions) {
@@ -71,14 +66,14 @@ Groups clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
         result.items.push_back(p);
       }
     };
-    for (Index r : rows[c]) take(pattern.row(r));
+    for (Index r : rows[c]) take(pattern.rows[r]);
     for (Index child : children[c]) {
       // By index: `take` may move the items.
       const Index list = cliques - 1 - child;
       for (Index i = result.begin[list]; i < result.begin[list + 1]; ++i)
         take(std::array{result.items[i]});
     }
-    result.begin.push_back(static_cast<Index>(result.items.size()));
+    result.close();
   }
   return reversed(result);
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/elim/score.h"
-#include "lib/graph/groups.h"
+#include "lib/graph/lists.h"
 
 namespace sg {
 
@@ -27,9 +27,9 @@ BayesTree bayes_tree(const Symbolic& symbolic);
 Wide elimination_complexity(const BayesTree& tree);
 
 // The positions of every clique's frontal variables, ascending.
-Groups clique_frontals(const BayesTree& tree);
+Lists<> clique_frontals(const BayesTree& tree);
 // The positions of every clique's separator, in no order. Unlike the dimensions above they take the
 // space of all cliques together.
-Groups clique_separators(const OrderedPattern& pattern, const BayesTree& tree);
+Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree& tree);
 
 }  // namespace sg

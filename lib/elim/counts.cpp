@@ -1,7 +1,5 @@
 #include "lib/elim/counts.h"
 
-#include <numeric>
-
 namespace sg {
 namespace {
 
@@ -15,18 +13,6 @@ struct Postordered {
   std::vector<int> dim;
   std::vector<Link> links;  // by ascending lower end
 };
-
-std::vector<Link> sorted_by_lower(const Links& links, const std::vector<Index>& place) {
-  std::vector<Index> at(links.size + 2, 0);  // counting sort
-  for (const Link& link : links.list) ++at[place[link.lower] + 1];
-  std::partial_sum(at.begin(), at.end(), at.begin());
-  std::vector<Link> result(links.list.size());
-  for (const Link& link : links.list) {
-    const Index j = place[link.lower];
-    result[at[j]++] = {j, place[link.upper]};
-  }
-  return result;
-}
 
 Postordered postordered(const Links& links, const std::vector<int>& dim,
                         const std::vector<Index>& parent) {
@@ -45,7 +31,11 @@ Postordered postordered(const Links& links, const std::vector<int>& dim,
     post.first[j] = j - size[k] + 1;
     post.dim[j] = dim[k];
   }
-  post.links = sorted_by_lower(links, place);
+  post.links = counting_sort<Link>(n + 1, [&](const auto& put) {
+                 for (const Link& link : links.list) {
+                   put(place[link.lower], Link{place[link.lower], place[link.upper]});
+                 }
+               }).items;
   return post;
 }
 

@@ -1,7 +1,6 @@
 #include "lib/elim/etree.h"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 
 namespace sg {
@@ -29,28 +28,19 @@ OrderedPattern ordered(const Pattern& pattern, const Order& order) {
   result.dim.resize(n);
   for (Index k = 0; k < n; ++k) result.dim[k] = pattern.dim[order[k]];
 
-  // Counting sort of the rows by their first position.
-  std::vector<Index> first(pattern.rows());
-  std::vector<Index> at(n + 2, 0);
-  Index kept = 0;
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    first[r] = n;
-    for (Index j : pattern.row(r)) first[r] = std::min(first[r], position[j]);
-    ++at[first[r] + 1];
-    kept += first[r] < n;
+  std::vector<Index> first(pattern.rows.size(), -1);  // position of every row
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    for (Index j : pattern.rows[r]) {
+      if (first[r] < 0 || position[j] < first[r]) first[r] = position[j];
+    }
   }
-  std::partial_sum(at.begin(), at.end(), at.begin());
-  std::vector<Index> sorted(pattern.rows());
-  for (Index r = 0; r < pattern.rows(); ++r) sorted[at[first[r]]++] = r;
-
-  result.row_begin.reserve(kept + 1);
-  result.row_begin.push_back(0);
-  result.row_positions.reserve(pattern.row_variables.size());
-  for (Index s = 0; s < kept; ++s) {
-    const auto begin = static_cast<std::ptrdiff_t>(result.row_positions.size());
-    for (Index j : pattern.row(sorted[s])) result.row_positions.push_back(position[j]);
-    std::sort(result.row_positions.begin() + begin, result.row_positions.end());
-    result.row_begin.push_back(static_cast<Index>(result.row_positions.size()));
+  const Lists<> by_first = grouped(first, n);
+  result.rows.begin.reserve(by_first.items.size() + 1);
+  result.rows.items.reserve(pattern.rows.items.size());
+  for (Index r : by_first.items) {
+    for (Index j : pattern.rows[r]) result.rows.items.push_back(position[j]);
+    std::ranges::sort(result.rows.open());
+    result.rows.close();
   }
   return result;
 }
@@ -73,20 +63,14 @@ void add_links(std::span<const Index> row, const auto& position, std::vector<Lin
   }
 }
 
-std::vector<Link> sorted(const std::vector<Link>& list, Index n) {
-  std::vector<Index> at(n + 1, 0);  // counting sort
-  for (const Link& link : list) ++at[link.upper + 1];
-  std::partial_sum(at.begin(), at.end(), at.begin());
-  std::vector<Link> result(list.size());
-  for (const Link& link : list) result[at[link.upper]++] = link;
-  return result;
-}
-
 Links links_of(const auto& pattern, const auto& position) {
   std::vector<Link> list;
-  list.reserve(pattern.rows());
-  for (Index r = 0; r < pattern.rows(); ++r) add_links(pattern.row(r), position, list);
-  return {pattern.variables(), sorted(list, pattern.variables())};
+  list.reserve(pattern.rows.size());
+  for (Index r = 0; r < pattern.rows.size(); ++r) add_links(pattern.rows[r], position, list);
+  const Index n = pattern.variables();
+  return {n, counting_sort<Link>(n, [&](const auto& put) {
+               for (const Link& link : list) put(link.upper, link);
+             }).items};
 }
 
 }  // namespace

@@ -19,15 +19,9 @@ namespace sg {
 // ascending positions, and the rows are grouped by the position of their first variable (Davis's
 // "head/next" lists, laid flat).
 struct OrderedPattern {
-  std::vector<int> dim;          // n
-  std::vector<Index> row_begin;  // m' + 1, rows with at least one variable
-  std::vector<Index> row_positions;
+  std::vector<int> dim;  // n
+  Lists<> rows;          // those with at least one variable
   Index variables() const { return static_cast<Index>(dim.size()); }
-  Index rows() const { return static_cast<Index>(row_begin.size()) - 1; }
-  std::span<const Index> row(Index r) const {
-    return {row_positions.data() + row_begin[r],
-            static_cast<std::size_t>(row_begin[r + 1] - row_begin[r])};
-  }
 };
 // Throws std::invalid_argument if `order` is not a permutation of the pattern's variables.
 OrderedPattern ordered(const Pattern& pattern, const Order& order);

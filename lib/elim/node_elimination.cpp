@@ -45,8 +45,8 @@ class UpperMatrix {
 
 UpperMatrix adjacency_matrix(const OrderedPattern& pattern) {
   UpperMatrix adjacent(pattern.variables());
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    const auto row = pattern.row(r);
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    const auto row = pattern.rows[r];
     for (std::size_t a = 0; a < row.size(); ++a) {
       for (std::size_t b = a + 1; b < row.size(); ++b) adjacent.join(row[a], row[b]);
     }

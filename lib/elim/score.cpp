@@ -68,7 +68,7 @@ Score score(const Symbolic& symbolic) {
 }
 
 Wide system_nnz(const Pattern& pattern) {
-  const Columns column = columns(pattern);
+  const Lists<> column = columns(pattern);
   std::vector<Index> seen(pattern.variables(), -1);
   Wide twice_off_diagonal = 0;
   Wide diagonal = 0;
@@ -77,7 +77,7 @@ Wide system_nnz(const Pattern& pattern) {
     const auto dim = static_cast<Wide>(pattern.dim[j]);
     diagonal += dim * (dim + 1) / 2;
     for (Index r : column[j]) {
-      for (Index i : pattern.row(r)) {
+      for (Index i : pattern.rows[r]) {
         if (seen[i] != j) twice_off_diagonal += dim * static_cast<Wide>(pattern.dim[i]);
         seen[i] = j;
       }

@@ -10,8 +10,8 @@ void visit_separators(const OrderedPattern& pattern, const std::vector<Index>& p
   Index r = 0;                                                 // rows are grouped by first position
   for (Index k = 0; k < pattern.variables(); ++k) {
     std::vector<Index> separator = std::move(named[k]);
-    for (; r < pattern.rows() && pattern.row(r).front() == k; ++r) {
-      separator.insert(separator.end(), pattern.row(r).begin(), pattern.row(r).end());
+    for (; r < pattern.rows.size() && pattern.rows[r].front() == k; ++r) {
+      separator.insert(separator.end(), pattern.rows[r].begin(), pattern.rows[r].end());
     }
     std::sort(separator.begin(), separator.end());
     separator.erase(std::unique(separator.begin(), separator.end()), separator.end());

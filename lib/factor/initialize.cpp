@@ -40,31 +40,19 @@ bool place_by_rays(const Problem& problem, Index v, std::span<const Index> edges
 }
 
 // Edges at every vertex, in file order.
-struct Incidence {
-  std::vector<Index> begin;
-  std::vector<Index> edges;
-  std::span<const Index> operator[](Index v) const {
-    return {edges.data() + begin[v], static_cast<std::size_t>(begin[v + 1] - begin[v])};
-  }
-};
-Incidence incidence(const Graph& graph) {
-  Incidence result;
-  result.begin.assign(graph.vertices() + 1, 0);
-  for (Index v : graph.edge_vertices) ++result.begin[v + 1];
-  for (Index v = 0; v < graph.vertices(); ++v) result.begin[v + 1] += result.begin[v];
-  result.edges.resize(graph.edge_vertices.size());
-  auto at = result.begin;
-  for (Index e = 0; e < graph.edges(); ++e) {
-    for (Index v : graph.edge(e)) result.edges[at[v]++] = e;
-  }
-  return result;
+Lists<> incidence(const Graph& graph) {
+  return counting_sort(graph.vertices(), [&](const auto& put) {
+    for (Index e = 0; e < graph.edges(); ++e) {
+      for (Index v : graph.edge(e)) put(v, e);
+    }
+  });
 }
 
 // Spreads over the vertices of one role: always the lowest vertex that an edge joins to a placed
 // one.
 struct Spread {
   const Problem& problem;
-  const Incidence& at;
+  const Lists<>& at;
   Role role;
   std::vector<bool>& placed;
   Values& values;
@@ -189,7 +177,7 @@ Values initial_values(const Problem& problem) {
       placed[v] = true;
     }
   }
-  const Incidence at = incidence(graph);
+  const Lists<> at = incidence(graph);
   for (Role role : {Role::pose, Role::landmark, Role::other}) {
     Spread spread{problem, at, role, placed, values};
     place_all(spread);

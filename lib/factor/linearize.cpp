@@ -10,7 +10,7 @@ namespace {
 
 int columns(const Pattern& pattern, Index r) {
   int sum = 0;
-  for (Index j : pattern.row(r)) sum += pattern.dim[j];
+  for (Index j : pattern.rows[r]) sum += pattern.dim[j];
   return sum;
 }
 
@@ -24,7 +24,7 @@ void gauge_row(int dim, double* block) {
 void gather_columns(const Problem& problem, Index e, const double* all, double* block) {
   const Pattern& pattern = problem.variables.pattern;
   const int dim = problem.model[e]->dim;
-  const auto variables = pattern.row(e);
+  const auto variables = pattern.rows[e];
   std::fill_n(block, dim * columns(pattern, e), 0.0);
   for (Index v : problem.graph->edge(e)) {
     const int size = dim * problem.graph->dim(v);
@@ -41,7 +41,7 @@ void gather_columns(const Problem& problem, Index e, const double* all, double* 
 
 void clear_held(const Problem& problem, Index e, double* block) {
   const Pattern& pattern = problem.variables.pattern;
-  for (Index j : pattern.row(e)) {
+  for (Index j : pattern.rows[e]) {
     const int size = problem.model[e]->dim * pattern.dim[j];
     if (j == problem.held) std::fill_n(block, size, 0.0);
     block += size;
@@ -64,7 +64,7 @@ LinearSystem make_linear_system(const Problem& problem) {
   const Pattern& pattern = problem.variables.pattern;
   system.pattern = &pattern;
   system.begin.push_back(0);
-  for (Index r = 0; r < pattern.rows(); ++r) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
     const bool gauge = r == problem.graph->edges();
     system.height.push_back(gauge ? pattern.dim[problem.held] : problem.model[r]->dim);
     system.begin.push_back(system.begin.back() + system.height.back() * (columns(pattern, r) + 1));
@@ -81,7 +81,7 @@ void linearize_row(const Problem& problem, const Values& values, const Kernel& k
   const Ends x = ends_of(problem, values, r);
   const double* const c = constants_of(problem, r);
   const Whitening U = whitening_of(problem, r);
-  const auto variables = pattern.row(r);
+  const auto variables = pattern.rows[r];
   if (static_cast<int>(variables.size()) == model.arity) {
     model.linearize(x.data(), c, U, block);
   } else {
@@ -98,7 +98,7 @@ void linearize_row(const Problem& problem, const Values& values, const Kernel& k
 void linearize(const Problem& problem, const Values& values, const Kernel& kernel,
                LinearSystem& system) {
   using Range = tbb::blocked_range<Index>;
-  tbb::parallel_for(Range(0, system.pattern->rows(), 512), [&](const Range& range) {
+  tbb::parallel_for(Range(0, system.pattern->rows.size(), 512), [&](const Range& range) {
     for (Index r = range.begin(); r != range.end(); ++r) {
       linearize_row(problem, values, kernel, r, system.block(r));
     }

@@ -5,7 +5,7 @@
 // over the same numbers.
 //
 // The block of row r is the matrix [A_r b_r], by column, of height[r] rows; its columns are those
-// of the variables pattern.row(r) in that order (dim of each), then b_r. Its Gram matrix, [A b]' [A
+// of the variables pattern.rows[r] in that order (dim of each), then b_r. Its Gram matrix, [A b]' [A
 // b], is the factor's share of the normal equations.
 #pragma once
 

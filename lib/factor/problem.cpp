@@ -182,8 +182,7 @@ void lay_out_variables(Problem& problem) {
   problem.held = free_gauge(problem);
   Pattern& pattern = problem.variables.pattern;
   if (problem.held >= 0) {
-    pattern.row_variables.push_back(problem.held);
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+    pattern.rows.add(std::array{problem.held});
   }
   problem.step_at.push_back(0);
   for (int dim : pattern.dim) problem.step_at.push_back(problem.step_at.back() + dim);

@@ -5,12 +5,17 @@
 namespace sg {
 
 Components components(const Graph& graph) {
+  return components(graph, std::vector<bool>(graph.edges(), false));
+}
+
+Components components(const Graph& graph, const std::vector<bool>& edge_removed) {
   const Index n = graph.vertices();
   std::vector<Index> rank(n);
   std::vector<Index> parent(n);
   boost::disjoint_sets<Index*, Index*> sets(rank.data(), parent.data());
   for (Index v = 0; v < n; ++v) sets.make_set(v);
   for (Index e = 0; e < graph.edges(); ++e) {
+    if (edge_removed[e]) continue;
     for (Index v : graph.edge(e)) sets.union_set(graph.edge(e).front(), v);
   }
   Components result;

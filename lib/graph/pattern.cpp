@@ -1,7 +1,6 @@
 #include "lib/graph/pattern.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace sg {
 namespace {
@@ -15,22 +14,17 @@ GraphPattern pattern_of(const Graph& graph, const auto& has_vertex, const auto& 
     result.variable_vertex.push_back(v);
     result.pattern.dim.push_back(graph.dim(v));
   }
-  Pattern& pattern = result.pattern;
-  pattern.row_begin.reserve(graph.edges() + 1);
-  pattern.row_variables.reserve(graph.edge_vertices.size());
-  pattern.row_begin.push_back(0);
+  Lists<>& rows = result.pattern.rows;
+  rows.begin.reserve(graph.edges() + 1);
+  rows.items.reserve(graph.edge_vertices.size());
   for (Index e = 0; e < graph.edges(); ++e) {
     if (!has_edge(e)) continue;
-    const auto row = static_cast<std::ptrdiff_t>(pattern.row_variables.size());
     for (Index v : graph.edge(e)) {
       const Index j = result.vertex_variable[v];
-      const auto begin = pattern.row_variables.begin() + row;
-      if (j >= 0 &&
-          std::find(begin, pattern.row_variables.end(), j) == pattern.row_variables.end()) {
-        pattern.row_variables.push_back(j);
-      }
+      const auto row = rows.open();
+      if (j >= 0 && std::find(row.begin(), row.end(), j) == row.end()) rows.items.push_back(j);
     }
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+    rows.close();
   }
   return result;
 }
@@ -48,39 +42,28 @@ GraphPattern graph_pattern(const Graph& graph, const std::vector<bool>& vertex_i
       graph, [&](Index v) { return vertex_in[v]; }, [&](Index e) { return edge_in[e]; });
 }
 
-Columns columns(const Pattern& pattern) {
-  const Index n = pattern.variables();
-  Columns result;
-  result.begin.assign(n + 1, 0);
-  for (Index j : pattern.row_variables) ++result.begin[j + 1];
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.rows.resize(pattern.row_variables.size());
-  std::vector<Index> at(result.begin.begin(), result.begin.end() - 1);
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    for (Index j : pattern.row(r)) result.rows[at[j]++] = r;
-  }
-  return result;
-}
-
 Adjacency adjacency(const Pattern& pattern) {
   const Index n = pattern.variables();
-  const Columns column = columns(pattern);
+  std::size_t longest = 0;
+  for (Index r = 0; r < pattern.rows.size(); ++r)
+    longest = std::max(longest, pattern.rows[r].size());
+  if (longest > 0)
+    item_count(longest * (longest - 1));  // at least; not to find out with memory full
+  const Lists<> column = columns(pattern);
   std::vector<Index> seen(n, -1);
   Adjacency result;
   result.begin.reserve(n + 1);
-  result.begin.push_back(0);
   for (Index j = 0; j < n; ++j) {
     seen[j] = j;
-    const auto first = static_cast<std::ptrdiff_t>(result.neighbours.size());
     for (Index r : column[j]) {
-      for (Index i : pattern.row(r)) {
+      for (Index i : pattern.rows[r]) {
         if (seen[i] == j) continue;
         seen[i] = j;
-        result.neighbours.push_back(i);
+        result.items.push_back(i);
       }
     }
-    std::sort(result.neighbours.begin() + first, result.neighbours.end());
-    result.begin.push_back(static_cast<Index>(result.neighbours.size()));
+    std::ranges::sort(result.open());
+    result.close();
   }
   return result;
 }

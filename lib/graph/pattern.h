@@ -2,24 +2,18 @@
 // every variable. It is all that ordering and elimination ever see of a graph.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "lib/graph/graph.h"
+#include "lib/graph/lists.h"
 
 namespace sg {
 
 struct Pattern {
-  std::vector<int> dim;              // n: tangent dimension of every variable
-  std::vector<Index> row_begin;      // m + 1, into row_variables
-  std::vector<Index> row_variables;  // distinct variables of every factor, in file order
+  std::vector<int> dim;  // n: tangent dimension of every variable
+  Lists<> rows;          // m: distinct variables of every factor, in file order
 
   Index variables() const { return static_cast<Index>(dim.size()); }
-  Index rows() const { return static_cast<Index>(row_begin.size()) - 1; }
-  std::span<const Index> row(Index r) const {
-    return {row_variables.data() + row_begin[r],
-            static_cast<std::size_t>(row_begin[r + 1] - row_begin[r])};
-  }
 };
 
 // An elimination order: order[k] is the variable that goes k-th. A permutation of 0..n-1.
@@ -39,26 +33,15 @@ GraphPattern graph_pattern(const Graph& graph);
 GraphPattern graph_pattern(const Graph& graph, const std::vector<bool>& vertex_in,
                            const std::vector<bool>& edge_in);
 
-// The columns of a pattern: for every variable, the rows it stands in, ascending (the transpose).
-struct Columns {
-  std::vector<Index> begin;  // n + 1
-  std::vector<Index> rows;
-  std::span<const Index> operator[](Index j) const {
-    return {rows.data() + begin[j], static_cast<std::size_t>(begin[j + 1] - begin[j])};
-  }
-};
-Columns columns(const Pattern& pattern);
+// The columns of a pattern: for every variable, the rows it stands in, ascending.
+inline Lists<> columns(const Pattern& pattern) {
+  return transpose(pattern.rows, pattern.variables());
+}
 
 // The graph of A^T A: for every variable its neighbours, ascending, without itself and without
-// duplicates. For orderings that want adjacency; elimination does not form it.
-struct Adjacency {
-  std::vector<Index> begin;  // n + 1
-  std::vector<Index> neighbours;
-  Index size() const { return static_cast<Index>(begin.size()) - 1; }
-  std::span<const Index> operator[](Index j) const {
-    return {neighbours.data() + begin[j], static_cast<std::size_t>(begin[j + 1] - begin[j])};
-  }
-};
+// duplicates. For orderings that want adjacency; elimination does not form it. Throws a computation
+// Error if there are too many for an Index (an edge of 46,342 vertices makes as many).
+using Adjacency = Lists<>;
 Adjacency adjacency(const Pattern& pattern);
 
 }  // namespace sg

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "lib/graph/graph.h"
-#include "lib/graph/groups.h"
 
 namespace sg {
 
@@ -33,18 +32,13 @@ std::vector<Index> segments(const Graph& graph, const PoseIndex& poses);
 // step that gives it its min_obs-th observation and brings its earlier observations along. Vertices
 // and edges without a pose: a vertex enters with the first edge that reaches it, an edge without
 // pose enters as soon as all its vertices are there. Vertices or edges that never enter (a landmark
-// with fewer observations) have step -1.
+// with fewer observations) have step -1. Sorted by step they are grouped(vertex_step, steps) and
+// grouped(edge_step, steps).
 struct Replay {
   Index steps = 0;                 // number of poses
   std::vector<Index> vertex_step;  // n
   std::vector<Index> edge_step;    // m
 };
 Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs = 1);
-
-// Vertices or edges by step: those of step k, ascending. Those of step -1 are left out.
-using ByStep = Groups;
-inline ByStep by_step(const std::vector<Index>& step, Index steps) {
-  return grouped(step, steps);
-}
 
 }  // namespace sg

@@ -57,4 +57,20 @@ Summary summarize(const Graph& graph) {
   return summary;
 }
 
+std::optional<double> average_observations(const Graph& graph) {
+  std::int64_t landmarks = 0, observations = 0;
+  for (Index v = 0; v < graph.vertices(); ++v) landmarks += graph.role(v) == Role::landmark;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    std::int64_t of_edge = 0;
+    bool pose = false;
+    for (Index v : graph.edge(e)) {
+      of_edge += graph.role(v) == Role::landmark;
+      pose = pose || graph.role(v) == Role::pose;
+    }
+    if (pose) observations += of_edge;
+  }
+  if (landmarks == 0) return std::nullopt;
+  return static_cast<double>(observations) / static_cast<double>(landmarks);
+}
+
 }  // namespace sg

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "lib/graph/graph.h"
 
@@ -25,5 +26,8 @@ struct Summary {
   std::int64_t sights = 0;  // pairs of an observation and a landmark in it
 };
 Summary summarize(const Graph& graph);
+
+// Mean number of edges to poses that a landmark has; nothing without landmarks.
+std::optional<double> average_observations(const Graph& graph);
 
 }  // namespace sg

@@ -22,14 +22,13 @@ void check(int status) {
 Order amd(const Pattern& pattern, const OrderOptions& options) {
   const Index n = pattern.variables();
   const Adjacency graph = adjacency(pattern);
-  if (graph.neighbours.empty()) return id(pattern, options);  // AMD takes no empty arrays
+  if (graph.items.empty()) return id(pattern, options);  // AMD takes no empty arrays
   const std::vector<int> set = constraint_sets(n, options.last);
   Order order(n);
   if (set.empty()) {
-    check(
-        amd_order(n, graph.begin.data(), graph.neighbours.data(), order.data(), nullptr, nullptr));
+    check(amd_order(n, graph.begin.data(), graph.items.data(), order.data(), nullptr, nullptr));
   } else {
-    check(camd_order(n, graph.begin.data(), graph.neighbours.data(), order.data(), nullptr, nullptr,
+    check(camd_order(n, graph.begin.data(), graph.items.data(), order.data(), nullptr, nullptr,
                      set.data()));
   }
   return order;

@@ -69,7 +69,7 @@ void take(Search& search, OrderedElimination&& elimination) {
   search.cost.clear();
   double sum = 0;
   for (std::size_t k = 0; k < search.best.count.size(); ++k) {
-    sum += to_double(elimination_cost(search.best.rows.dim[k], search.best.count[k]));
+    sum += to_double(elimination_cost(search.best.pattern.dim[k], search.best.count[k]));
     search.cost.push_back(sum);
   }
 }

@@ -25,19 +25,19 @@ void keep_dense(double* knobs) {
 
 Order colamd(const Pattern& pattern, const OrderOptions& options) {
   const Index n = pattern.variables();
-  const Index m = pattern.rows();
-  Columns a = columns(pattern);
-  const std::size_t size = ccolamd_recommended(static_cast<int>(a.rows.size()), m, n);
+  const Index m = pattern.rows.size();
+  Lists<> a = columns(pattern);
+  const std::size_t size = ccolamd_recommended(static_cast<int>(a.items.size()), m, n);
   if (size == 0 || size > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     throw computation_error("the graph is too large for CCOLAMD");
   }
-  a.rows.resize(size);
+  a.items.resize(size);
   double knobs[CCOLAMD_KNOBS];
   ccolamd_set_defaults(knobs);
   keep_dense(knobs);
   int stats[CCOLAMD_STATS];
   std::vector<int> set = constraint_sets(n, options.last);
-  const bool done = ccolamd(m, n, static_cast<int>(size), a.rows.data(), a.begin.data(), knobs,
+  const bool done = ccolamd(m, n, static_cast<int>(size), a.items.data(), a.begin.data(), knobs,
                             stats, set.empty() ? nullptr : set.data());
   if (!done) throw computation_error("CCOLAMD failed (status " + std::to_string(stats[3]) + ")");
   a.begin.pop_back();

@@ -157,14 +157,13 @@ void remove_simplicial(FillGraph& g, Index v, std::span<const Index> clique) {
 // Edges from every live variable to its neighbours of higher (degree, index).
 Adjacency upward(FillGraph& g) {
   Adjacency up;
-  up.begin.push_back(0);
   for (Index v = 0; v < static_cast<Index>(g.list.size()); ++v) {
     if (g.variables.alive[v]) {
       for (Index w : neighbours(g, v)) {
-        if (std::pair(g.list[v].live, v) < std::pair(g.list[w].live, w)) up.neighbours.push_back(w);
+        if (std::pair(g.list[v].live, v) < std::pair(g.list[w].live, w)) up.items.push_back(w);
       }
     }
-    up.begin.push_back(static_cast<Index>(up.neighbours.size()));
+    up.close();
   }
   return up;
 }
@@ -184,7 +183,7 @@ void bound_fill(FillGraph& g) {
 void count_fill(FillGraph& g, std::int64_t work_limit) {
   const Adjacency up = upward(g);
   std::int64_t work = 0;
-  for (Index w : up.neighbours) work += up.begin[w + 1] - up.begin[w];
+  for (Index w : up.items) work += up.begin[w + 1] - up.begin[w];
   g.exact = work <= work_limit;
   if (!g.exact) return;
   g.work += work;
@@ -213,7 +212,7 @@ FillGraph fill_graph(const Adjacency& graph, const std::vector<int>& dim, std::v
   g.variables = supervariables(dim);
   g.stage = std::move(stage);
   g.stage.resize(n, 0);
-  g.pool = graph.neighbours;
+  g.pool = graph.items;
   g.fill.resize(n);
   g.degree.resize(n);
   g.hash.resize(n);

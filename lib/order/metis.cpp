@@ -25,7 +25,7 @@ Order order_part(ConnectedPart& part, std::uint64_t seed) {
   Order order(n);
   Order position(n);
   const int status =
-      METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.neighbours.data(),
+      METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.items.data(),
                    alike ? nullptr : part.dim.data(), options, order.data(), position.data());
   if (status != METIS_OK) {
     throw computation_error("METIS failed (status " + std::to_string(status) + ")");

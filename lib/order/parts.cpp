@@ -27,10 +27,9 @@ ConnectedPart part_of(const Pattern& pattern, const Adjacency& graph,
     number[variables[k]] = static_cast<Index>(k);
     part.dim.push_back(pattern.dim[variables[k]]);
   }
-  part.adjacency.begin.push_back(0);
   for (Index j : variables) {
-    for (Index i : graph[j]) part.adjacency.neighbours.push_back(number[i]);
-    part.adjacency.begin.push_back(static_cast<Index>(part.adjacency.neighbours.size()));
+    for (Index i : graph[j]) part.adjacency.items.push_back(number[i]);
+    part.adjacency.close();
   }
   return part;
 }

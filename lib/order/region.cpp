@@ -41,10 +41,10 @@ std::vector<Index> top_of_subtree(const OrderedElimination& e, Index root, Index
 
 // The first row whose first variable is at this position or later.
 Index first_row(const OrderedElimination& e, Index position) {
-  Index low = 0, high = e.rows.rows();
+  Index low = 0, high = e.pattern.rows.size();
   while (low < high) {
     const Index middle = low + (high - low) / 2;
-    if (e.rows.row(middle)[0] < position) {
+    if (e.pattern.rows[middle][0] < position) {
       low = middle + 1;
     } else {
       high = middle;
@@ -53,31 +53,29 @@ Index first_row(const OrderedElimination& e, Index position) {
   return low;
 }
 
-void end_row(std::vector<Index>& row, std::vector<std::vector<Index>>& rows) {
-  std::sort(row.begin(), row.end());
-  row.erase(std::unique(row.begin(), row.end()), row.end());
-  if (!row.empty()) rows.push_back(std::move(row));
-  row.clear();
+// Closes a row, its positions once each; one without any is none.
+void end_row(Lists<>& rows) {
+  std::ranges::sort(rows.open());
+  const auto row = rows.open();
+  rows.items.resize(rows.items.size() - std::ranges::unique(row).size());
+  if (!rows.open().empty()) rows.close();
 }
 
 // The rows of R, in positions: those that R eliminates, and the separators of what hangs below it.
-std::vector<std::vector<Index>> region_rows(const OrderedElimination& e,
-                                            const std::vector<Index>& inside) {
-  std::vector<std::vector<Index>> rows;
-  std::vector<Index> row;
+Lists<> region_rows(const OrderedElimination& e, const std::vector<Index>& inside) {
+  Lists<> rows;
   const auto hanging = [&](Index child) {
     if (std::binary_search(inside.begin(), inside.end(), child)) return;
     for (Index r = first_row(e, e.first[child]), end = first_row(e, child + 1); r < end; ++r) {
-      for (Index k : e.rows.row(r)) {
-        if (k > child) row.push_back(k);
+      for (Index k : e.pattern.rows[r]) {
+        if (k > child) rows.items.push_back(k);
       }
     }
-    end_row(row, rows);
+    end_row(rows);
   };
   for (Index k : inside) {
-    for (Index r = first_row(e, k); r < e.rows.rows() && e.rows.row(r)[0] == k; ++r) {
-      row.assign(e.rows.row(r).begin(), e.rows.row(r).end());
-      end_row(row, rows);
+    for (Index r = first_row(e, k); r < e.pattern.rows.size() && e.pattern.rows[r][0] == k; ++r) {
+      rows.add(e.pattern.rows[r]);
     }
     for_children(e, k, hanging);
   }
@@ -91,33 +89,30 @@ OrderedElimination elimination(const Pattern& pattern, const Order& order) {
   OrderedElimination e;
   e.order.reserve(order.size());
   for (Index k : post) e.order.push_back(order[k]);
-  e.rows = ordered(pattern, e.order);
-  e.parent = elimination_tree(e.rows);
+  e.pattern = ordered(pattern, e.order);
+  e.parent = elimination_tree(e.pattern);
   e.first = subtree_begin(e.parent);
-  e.count = column_counts(e.rows, e.parent);
+  e.count = column_counts(e.pattern, e.parent);
   for (std::size_t k = 0; k < e.count.size(); ++k) {
-    e.ec += elimination_cost(e.rows.dim[k], e.count[k]);
+    e.ec += elimination_cost(e.pattern.dim[k], e.count[k]);
   }
   return e;
 }
 
 Region region(const OrderedElimination& e, Index root, Index size) {
   Region result{root, top_of_subtree(e, root, size), {}, 0};
-  const std::vector<std::vector<Index>> rows = region_rows(e, result.inside);
+  Lists<>& rows = result.pattern.rows;
+  rows = region_rows(e, result.inside);
   std::vector<Index> positions = result.inside;
-  for (const auto& row : rows) positions.insert(positions.end(), row.begin(), row.end());
+  positions.insert(positions.end(), rows.items.begin(), rows.items.end());
   std::sort(positions.begin(), positions.end());
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
-  for (Index k : positions) result.pattern.dim.push_back(e.rows.dim[k]);
-  result.pattern.row_begin.push_back(0);
-  for (const auto& row : rows) {
-    for (Index k : row) {
-      const auto at = std::lower_bound(positions.begin(), positions.end(), k);
-      result.pattern.row_variables.push_back(static_cast<Index>(at - positions.begin()));
-    }
-    result.pattern.row_begin.push_back(static_cast<Index>(result.pattern.row_variables.size()));
+  for (Index k : positions) result.pattern.dim.push_back(e.pattern.dim[k]);
+  for (Index& k : rows.items) {
+    const auto at = std::lower_bound(positions.begin(), positions.end(), k);
+    k = static_cast<Index>(at - positions.begin());
   }
-  for (Index k : result.inside) result.ec += elimination_cost(e.rows.dim[k], e.count[k]);
+  for (Index k : result.inside) result.ec += elimination_cost(e.pattern.dim[k], e.count[k]);
   return result;
 }
 

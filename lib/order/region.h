@@ -14,7 +14,7 @@ namespace sg {
 
 struct OrderedElimination {
   Order order;  // postordered
-  OrderedPattern rows;
+  OrderedPattern pattern;
   std::vector<Index> parent, first;
   std::vector<std::int64_t> count;  // d_f + d_s
   Wide ec = 0;

@@ -56,7 +56,7 @@ std::vector<SCOTCH_Num> numbers(const std::vector<Index>& values) {
 Order order_part(const ConnectedPart& part, std::uint64_t seed) {
   const SCOTCH_Num n = part.adjacency.size();
   const auto begin = numbers(part.adjacency.begin);
-  const auto neighbours = numbers(part.adjacency.neighbours);
+  const auto neighbours = numbers(part.adjacency.items);
   const auto weight = numbers(part.dim);
   const auto context = single_threaded(seed);
   const auto graph =

@@ -116,7 +116,7 @@ std::vector<int> stages(Index n, const std::vector<Index>& last) {
 }
 
 std::int64_t entries(const Adjacency& graph) {
-  return static_cast<std::int64_t>(graph.neighbours.size()) + graph.size();
+  return static_cast<std::int64_t>(graph.items.size()) + graph.size();
 }
 
 void keep_better(GreedyResult& best, GreedyResult&& other) {

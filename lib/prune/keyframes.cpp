@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 
 #include "lib/geometry/numbers.h"
 #include "lib/text/error.h"
@@ -22,7 +21,7 @@ SE3 estimate(const Graph& graph, Index v) {
 }
 
 // Throws unless all edges of step k can be composed, and fused if there are several.
-void require_composable(const Graph& graph, const Odometry& odometry, Index k) {
+void require_composable(const Graph& graph, const Lists<>& odometry, Index k) {
   for (Index e : odometry[k]) {
     const EdgeType& type = graph.type_of_edge(e);
     if (!is_motion(type) || type.tag != graph.type_of_edge(odometry[k][0]).tag) {
@@ -37,7 +36,7 @@ void require_composable(const Graph& graph, const Odometry& odometry, Index k) {
 }
 
 // The motion of step k, from pose k - 1 to pose k. Several edges are fused.
-Motion step_motion(const Graph& graph, const PoseIndex& poses, const Odometry& odometry, Index k) {
+Motion step_motion(const Graph& graph, const PoseIndex& poses, const Lists<>& odometry, Index k) {
   std::vector<Motion> motions;
   for (Index e : odometry[k]) {
     const Motion forward_or_back = motion(graph, e).value();
@@ -50,7 +49,7 @@ Motion step_motion(const Graph& graph, const PoseIndex& poses, const Odometry& o
 }
 
 // Nearest keyframe of every pose within its segment, the earlier of two equally near.
-std::vector<Index> nearest_keyframes(const Odometry& odometry, const std::vector<bool>& keyframe) {
+std::vector<Index> nearest_keyframes(const Lists<>& odometry, const std::vector<bool>& keyframe) {
   const auto n = static_cast<Index>(keyframe.size());
   std::vector<Index> nearest(n);
   for (Index k = 0, last = 0; k < n; ++k) {
@@ -197,27 +196,18 @@ std::pair<Index, Index> around(const Keyframing& kf, Index e) {
 
 }  // namespace
 
-Odometry odometry_steps(const Graph& graph, const PoseIndex& poses) {
-  const auto step = [&](Index e) -> Index {
-    if (edge_role(graph, poses, e) != EdgeRole::odometry) return -1;
-    const auto ends = graph.edge(e);
-    return std::max(poses.index[ends[0]], poses.index[ends[1]]);
-  };
-  Odometry result;
-  result.begin.assign(pose_count(poses) + 1, 0);
+Lists<> odometry_steps(const Graph& graph, const PoseIndex& poses) {
+  std::vector<Index> step(graph.edges(), -1);
   for (Index e = 0; e < graph.edges(); ++e) {
-    if (const Index k = step(e); k >= 0) ++result.begin[k];
+    if (edge_role(graph, poses, e) != EdgeRole::odometry) continue;
+    const auto ends = graph.edge(e);
+    step[e] = std::max(poses.index[ends[0]], poses.index[ends[1]]);
   }
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.items.resize(result.begin.back());
-  for (Index e = graph.edges() - 1; e >= 0; --e) {
-    if (const Index k = step(e); k >= 0) result.items[--result.begin[k]] = e;
-  }
-  return result;
+  return grouped(step, pose_count(poses));
 }
 
 std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,
-                                   const Odometry& odometry, const KeyframeRule& rule) {
+                                   const Lists<>& odometry, const KeyframeRule& rule) {
   const Index n = pose_count(poses);
   std::vector<bool> keyframe(n);
   double travelled = 0, turned = 0;
@@ -239,7 +229,7 @@ std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,
   return keyframe;
 }
 
-Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Odometry& odometry,
+Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Lists<>& odometry,
                       const std::vector<bool>& keyframe, bool move_loops) {
   const std::vector<bool> no_edge(graph.edges(), false);
   Keyframing kf{graph,

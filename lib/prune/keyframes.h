@@ -16,7 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lib/graph/graph.h"
+#include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 #include "lib/prune/candidates.h"
 #include "lib/prune/motion.h"
@@ -32,19 +32,18 @@ struct KeyframeRule {
 };
 
 // The odometry edges of every step: step k leads from pose k - 1 to pose k.
-using Odometry = ByStep;
-Odometry odometry_steps(const Graph& graph, const PoseIndex& poses);
+Lists<> odometry_steps(const Graph& graph, const PoseIndex& poses);
 
 // Throws an input Error where distance or angle cannot be measured, for a step whose edges are of
 // no composable type.
 std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,
-                                   const Odometry& odometry, const KeyframeRule& rule);
+                                   const Lists<>& odometry, const KeyframeRule& rule);
 
 // The graph between its keyframes. Holds references to the graph, its poses and its odometry.
 struct Keyframing {
   const Graph& graph;
   const PoseIndex& poses;
-  const Odometry& odometry;
+  const Lists<>& odometry;
   std::vector<Index> nearest;   // nearest keyframe of every pose, by pose index
   std::vector<bool> rewritten;  // m: edges with a new line
   std::vector<bool> late;       // m: edges whose new line would stand before the VERTEX of its ends
@@ -56,7 +55,7 @@ struct Keyframing {
 
 // Decides the fate of every edge and checks that what has to be composed can be: throws an input
 // Error that names the first edge of which this does not hold. O(edges).
-Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Odometry& odometry,
+Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Lists<>& odometry,
                       const std::vector<bool>& keyframe, bool move_loops);
 
 // The motion from pose `from` to another pose `to` of one segment, by pose index, composed from

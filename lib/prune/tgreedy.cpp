@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
-#include <set>
 
-#include "lib/elim/trees.h"
+#include "lib/graph/components.h"
+#include "lib/graph/lists.h"
 #include "lib/text/error.h"
+#include "lib/trees/spanning_trees.h"
 
 namespace sg {
 namespace {
@@ -46,36 +46,12 @@ struct Greedy {
   std::vector<Accepted> accepted;
 };
 
-// Links of an edge of more than two vertices: from the first to each of the others.
-void links_of(const Graph& graph, const TreeNodes& nodes, Index e, std::vector<TreeEdge>& links) {
-  const auto ends = graph.edge(e);
-  links.clear();
-  for (std::size_t k = 1; k < ends.size(); ++k)
-    links.push_back({nodes.node[ends[0]], nodes.node[ends[k]]});
-}
-
 TreeEdge candidate_link(const Graph& graph, const TreeNodes& nodes, Index e) {
   const auto ends = graph.edge(e);
   if (ends.size() == 2) return {nodes.node[ends[0]], nodes.node[ends[1]]};
   throw error_at(graph, graph.edge_line[e],
                  graph.type_of_edge(e).tag + " joins " + std::to_string(ends.size()) +
                      " vertices: only edges of two can be candidates for spanning trees");
-}
-
-// The links of every edge, flat; those of candidates are one each.
-struct EdgeLinks {
-  std::vector<std::size_t> begin{0};  // m + 1
-  std::vector<TreeEdge> links;
-};
-EdgeLinks edge_links(const Graph& graph, const TreeNodes& nodes) {
-  EdgeLinks result;
-  std::vector<TreeEdge> links;
-  for (Index e = 0; e < graph.edges(); ++e) {
-    links_of(graph, nodes, e, links);
-    result.links.insert(result.links.end(), links.begin(), links.end());
-    result.begin.push_back(result.links.size());
-  }
-  return result;
 }
 
 void require_weights(const Graph& graph, const std::vector<Index>& candidates,
@@ -90,7 +66,7 @@ void require_weights(const Graph& graph, const std::vector<Index>& candidates,
 }
 
 // The graph of the edges marked `present`, on a pattern of all.
-Greedy start(const Graph& graph, const EdgeLinks& all, const TreeNodes& nodes,
+Greedy start(const Graph& graph, const Lists<TreeEdge>& all, const TreeNodes& nodes,
              const std::vector<Index>& candidates, TreeWeights kind,
              const std::vector<bool>& present) {
   Greedy greedy;
@@ -99,12 +75,12 @@ Greedy start(const Graph& graph, const EdgeLinks& all, const TreeNodes& nodes,
   std::vector<TreeLayer> layers = tree_layers(graph, kind);
   require_weights(graph, candidates, layers);
   for (TreeLayer& layer : layers) {
-    std::vector<double> weight(all.links.size(), 0);
+    std::vector<double> weight(all.items.size(), 0);
     for (Index e = 0; e < graph.edges(); ++e) {
-      for (std::size_t k = all.begin[e]; k < all.begin[e + 1]; ++k)
-        weight[k] = present[e] ? layer.weight[e] : 0;
+      if (!present[e]) continue;
+      std::fill(weight.begin() + all.begin[e], weight.begin() + all.begin[e + 1], layer.weight[e]);
     }
-    SpanningTrees trees = spanning_trees(nodes.count, all.links, weight);
+    SpanningTrees trees = spanning_trees(nodes.count, all.items, weight);
     greedy.layers.push_back({layer.multiplicity, std::move(layer.weight), std::move(trees)});
   }
   return greedy;
@@ -155,13 +131,13 @@ void spend(Greedy& greedy, std::size_t total) {
 }
 
 // Edges by the batch of the replay that they come with; those that never enter come last.
-ByStep by_batch(const Graph& graph, const PoseIndex& poses, Index batch) {
+Lists<> by_batch(const Graph& graph, const PoseIndex& poses, Index batch) {
   const Replay steps = replay(graph, poses);
   const Index batches = std::max<Index>(1, (steps.steps + batch - 1) / batch);
   std::vector<Index> when(graph.edges());
   for (Index e = 0; e < graph.edges(); ++e)
     when[e] = steps.edge_step[e] < 0 ? batches - 1 : steps.edge_step[e] / batch;
-  return by_step(when, batches);
+  return grouped(when, batches);
 }
 
 }  // namespace
@@ -169,7 +145,7 @@ ByStep by_batch(const Graph& graph, const PoseIndex& poses, Index batch) {
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
                               std::size_t count, TreeWeights weights) {
   const TreeNodes nodes = tree_nodes(graph);
-  const EdgeLinks all = edge_links(graph, nodes);
+  const Lists<TreeEdge> all = tree_links(graph, nodes);
   std::vector<bool> present(graph.edges(), true);
   for (Index e : candidates) present[e] = false;
   Greedy greedy = start(graph, all, nodes, candidates, weights, present);
@@ -182,24 +158,24 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
                                      TreeWeights weights, Index batch) {
   const TreeNodes nodes = tree_nodes(graph);
-  const EdgeLinks all = edge_links(graph, nodes);
+  const Lists<TreeEdge> all = tree_links(graph, nodes);
   Greedy greedy =
       start(graph, all, nodes, candidates, weights, std::vector<bool>(graph.edges(), false));
   std::vector<bool> candidate(graph.edges(), false);
   for (Index e : candidates) candidate[e] = true;
-  const ByStep edges = by_batch(graph, poses, batch);
+  const Lists<> edges = by_batch(graph, poses, batch);
   count = std::min(count, candidates.size());
   std::size_t seen = 0;
-  for (std::size_t k = 0; k + 1 < edges.begin.size(); ++k) {
-    for (Index e : edges[static_cast<Index>(k)]) {
+  for (Index k = 0; k < edges.size(); ++k) {
+    for (Index e : edges[k]) {
       if (candidate[e]) {
         offer(greedy, e);
         ++seen;
         continue;
       }
       for (Layer& layer : greedy.layers) {
-        for (std::size_t at = all.begin[e]; at < all.begin[e + 1] && layer.weight[e] > 0; ++at)
-          add_link(layer.trees, all.links[at], layer.weight[e]);
+        if (layer.weight[e] <= 0) continue;
+        for (const TreeEdge& link : all[e]) add_link(layer.trees, link, layer.weight[e]);
       }
       ++greedy.version;
     }
@@ -210,19 +186,10 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
 
 Index pose_parts(const Graph& graph, const PoseIndex& poses,
                  const std::vector<bool>& edge_removed) {
-  std::vector<Index> part(graph.vertices());
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&](Index v) {
-    while (part[v] != v) v = part[v] = part[part[v]];
-    return v;
-  };
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (edge_removed[e]) continue;
-    for (Index v : graph.edge(e)) part[root(v)] = root(graph.edge(e)[0]);
-  }
-  std::set<Index> roots;
-  for (Index v : poses.pose) roots.insert(root(v));
-  return static_cast<Index>(roots.size());
+  const Components parts = components(graph, edge_removed);
+  std::vector<bool> found(parts.count, false);
+  for (Index v : poses.pose) found[parts.of[v]] = true;
+  return static_cast<Index>(std::count(found.begin(), found.end(), true));
 }
 
 }  // namespace sg

@@ -20,7 +20,7 @@
 
 #include "lib/graph/graph.h"
 #include "lib/graph/replay.h"
-#include "lib/graph/tree_weights.h"
+#include "lib/trees/tree_weights.h"
 
 namespace sg {
 

@@ -84,12 +84,12 @@ void sum_up(const BayesTree& tree, const std::vector<Index>& clique,
 
 // Frontals and separators as variables, in elimination order.
 void list_variables(const BayesTree& tree, const Order& order, const std::vector<Index>& target,
-                    const std::vector<Index>& clique, const Groups& separator_positions,
+                    const std::vector<Index>& clique, const Lists<>& separator_positions,
                     CliqueTree& result) {
   const auto n = static_cast<Index>(order.size());
   std::vector<Index> clique_at(n);
   for (Index k = 0; k < n; ++k) clique_at[k] = clique[tree.clique[k]];
-  Groups frontals = grouped(clique_at, result.cliques());
+  Lists<> frontals = grouped(clique_at, result.cliques());
   std::vector<Index> rank(n);  // of a position in the new order
   for (Index k = 0; k < n; ++k) rank[frontals.items[k]] = k;
 
@@ -120,10 +120,10 @@ void place_rows(const Pattern& pattern, CliqueTree& result) {
       clique[result.frontals[k]] = c;
     }
   }
-  result.row_clique.resize(pattern.rows());
-  for (Index r = 0; r < pattern.rows(); ++r) {
+  result.row_clique.resize(pattern.rows.size());
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
     Index first = -1;
-    for (Index j : pattern.row(r)) {
+    for (Index j : pattern.rows[r]) {
       if (first < 0 || rank[j] < rank[first]) first = j;
     }
     result.row_clique[r] = first < 0 ? -1 : clique[first];

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/graph/groups.h"
+#include "lib/graph/lists.h"
 
 namespace sg {
 namespace {
@@ -31,7 +31,7 @@ void append_row_runs(const Pattern& pattern, Index r, const std::vector<int>& ro
                      std::vector<Run>& runs) {
   const auto first = static_cast<std::ptrdiff_t>(runs.size());
   int from = 0;
-  for (Index j : pattern.row(r)) {
+  for (Index j : pattern.rows[r]) {
     runs.push_back({from, row_at[j], pattern.dim[j]});
     from += pattern.dim[j];
   }
@@ -55,10 +55,10 @@ void append_child_runs(const Pattern& pattern, const CliqueTree& tree, Index c,
 // Where rows and children go in their clique's front.
 void plan_runs(const Pattern& pattern, Elimination& e) {
   const CliqueTree& tree = e.tree;
-  Groups rows = grouped(tree.row_clique, tree.cliques());
+  Lists<> rows = grouped(tree.row_clique, tree.cliques());
   e.rows_begin = std::move(rows.begin);
   e.rows = std::move(rows.items);
-  Groups children = grouped(tree.parent, tree.cliques());
+  Lists<> children = grouped(tree.parent, tree.cliques());
   e.children_begin = std::move(children.begin);
   e.children = std::move(children.items);
   std::vector<int> row_at(pattern.variables());
@@ -181,7 +181,7 @@ void plan_storage(const LinearSystem& system, Elimination& e) {
   e.updates = Arena(u + lane);
 
   e.scratch_size = rows + lane;
-  for (Index r = 0; r < system.pattern->rows(); ++r) {
+  for (Index r = 0; r < system.pattern->rows.size(); ++r) {
     const std::size_t height = system.height[r];
     const std::size_t width =
         height == 0 ? 0 : (system.begin[r + 1] - system.begin[r]) / static_cast<Offset>(height);
@@ -194,9 +194,9 @@ void plan_storage(const LinearSystem& system, Elimination& e) {
 // The least that a pivot must be, from the largest diagonal entry that a factor gives a scalar.
 void set_floors(const LinearSystem& system, Elimination& e) {
   std::fill(e.floors.begin(), e.floors.end(), 0.0);
-  for (Index r = 0; r < system.pattern->rows(); ++r) {
+  for (Index r = 0; r < system.pattern->rows.size(); ++r) {
     const double* column = system.block(r);
-    for (Index j : system.pattern->row(r)) {
+    for (Index j : system.pattern->rows[r]) {
       for (int k = 0; k < e.dim[j]; ++k) {
         double square = 0;
         for (int i = 0; i < system.height[r]; ++i) square += column[i] * column[i];

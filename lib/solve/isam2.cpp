@@ -25,7 +25,7 @@ int height(const Isam2& isam, Index r) {
 
 int width(const Pattern& pattern, Index r) {
   int sum = 1;
-  for (Index j : pattern.row(r)) sum += pattern.dim[j];
+  for (Index j : pattern.rows[r]) sum += pattern.dim[j];
   return sum;
 }
 
@@ -70,7 +70,7 @@ void damp_ray(Isam2& isam, Index r, double* gram) {
   const bool unseen = distance < nearest_seen;
   if (unseen) std::fill_n(gram, w * w, 0.0);
   int column = 0;
-  for (Index j : pattern.row(r)) {
+  for (Index j : pattern.rows[r]) {
     const bool landmark =
         problem.graph->role(problem.variables.variable_vertex[j]) == Role::landmark;
     if (landmark && unseen) {
@@ -96,7 +96,7 @@ void linearize(Isam2& isam, Index r) {
   std::copy_n(gram, w * w, isam.grams.data() + isam.gram_at[r]);
   isam.row_update[r] = isam.updates;
   int column = 0;
-  for (Index j : pattern.row(r)) {
+  for (Index j : pattern.rows[r]) {
     for (int k = 0; k < pattern.dim[j]; ++k, ++column) {
       double& floor = isam.floor[isam.problem->step_at[j] + k];
       floor = std::max(floor, vanishing * gram[column * (w + 1)]);
@@ -244,17 +244,16 @@ void make_pattern(Isam2& isam) {
   std::sort(work.rows.begin(), work.rows.end());
   Pattern& pattern = work.pattern;
   pattern.dim.clear();
-  pattern.row_begin.assign(1, 0);
-  pattern.row_variables.clear();
+  pattern.rows.clear();
   for (Index k = 0; k < static_cast<Index>(work.variables.size()); ++k) {
     work.local[work.variables[k]] = k;
     pattern.dim.push_back(whole.dim[work.variables[k]]);
   }
   const auto add = [&](std::span<const Index> row) {
-    for (Index j : row) pattern.row_variables.push_back(work.local[j]);
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
+    for (Index j : row) pattern.rows.items.push_back(work.local[j]);
+    pattern.rows.close();
   };
-  for (Index r : work.rows) add(whole.row(r));
+  for (Index r : work.rows) add(whole.rows[r]);
   for (Index c : work.orphans) add(separators_of(isam, isam.cliques[c]));
 }
 
@@ -263,7 +262,7 @@ Order order_affected(Isam2& isam, std::span<const Index> new_rows) {
   Isam2::Work& work = isam.work;
   OrderOptions options;
   for (Index r : new_rows) {
-    for (Index j : pattern_of(isam).row(r)) options.last.push_back(work.local[j]);
+    for (Index j : pattern_of(isam).rows[r]) options.last.push_back(work.local[j]);
   }
   std::sort(options.last.begin(), options.last.end());
   options.last.erase(std::unique(options.last.begin(), options.last.end()), options.last.end());
@@ -386,7 +385,7 @@ void eliminate(Isam2& isam, Index c, const Kernels& kernel, Isam2Report& report)
   const int last_row = place_variables(isam, clique);
   kernel.clear(front);
   for (Index r : rows_of(isam, clique)) {
-    const auto variables = pattern_of(isam).row(r);
+    const auto variables = pattern_of(isam).rows[r];
     make_runs(isam, variables, last_row);
     std::ranges::sort(runs, {}, &Run::to);
     kernel.add(front, isam.grams.data() + isam.gram_at[r], width(pattern_of(isam), r), runs.data(),
@@ -513,10 +512,10 @@ Isam2 make_isam2(const Problem& problem, const Isam2Options& options) {
   isam.unseen.assign(n, false);
   isam.linearized.assign(problem.value_at.back(), 0.0);
   isam.estimate = isam.linearized;
-  isam.row_clique.assign(pattern.rows(), -1);
-  isam.row_update.assign(pattern.rows(), -1);
+  isam.row_clique.assign(pattern.rows.size(), -1);
+  isam.row_update.assign(pattern.rows.size(), -1);
   isam.gram_at.assign(1, 0);
-  for (Index r = 0; r < pattern.rows(); ++r) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
     const Offset w = width(pattern, r);
     isam.gram_at.push_back(isam.gram_at.back() + w * w);
   }
@@ -535,7 +534,7 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
   report.relinearized = relinearize(isam);
   for (Index r : rows) {
     linearize(isam, r);
-    for (Index j : pattern_of(isam).row(r)) remove_up(isam, isam.clique[j]);
+    for (Index j : pattern_of(isam).rows[r]) remove_up(isam, isam.clique[j]);
   }
   if (removed_variables(isam) > reorder_all * isam.variables) remove_all(isam);
   isam.variables += static_cast<Index>(variables.size());

@@ -56,7 +56,7 @@ struct Isam2 {
   Index updates = 0;
 
   // By variable; steps by scalar (Problem::step_at).
-  Columns rows_of;                // all rows that a variable will ever have
+  Lists<> rows_of;                // all rows that a variable will ever have
   std::vector<Index> clique;      // where it is frontal, -1 before it enters
   std::vector<double> step;       // from the linearization point
   std::vector<double> told;       // step that was last passed down, within the wildfire threshold

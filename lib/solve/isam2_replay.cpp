@@ -73,8 +73,8 @@ Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& option
   if (!graph.edges_only) result.file = file_values(problem);
   result.poses = pose_index(graph);
   result.steps = replay(graph, result.poses, min_obs);
-  result.vertices = by_step(result.steps.vertex_step, result.steps.steps);
-  result.edges = by_step(result.steps.edge_step, result.steps.steps);
+  result.vertices = grouped(result.steps.vertex_step, result.steps.steps);
+  result.edges = grouped(result.steps.edge_step, result.steps.steps);
   result.placed.assign(graph.vertices(), false);
   result.isam = make_isam2(problem, options);
   return result;
@@ -97,7 +97,7 @@ Isam2Report replay_step(Isam2Replay& replay, Index k) {
     }
   }
   for (Index e : edges) {
-    if (!problem.variables.pattern.row(e).empty()) rows.push_back(e);
+    if (!problem.variables.pattern.rows[e].empty()) rows.push_back(e);
   }
   const Isam2Report report = update(replay.isam, variables, rows);
   if (!report.undetermined.empty()) throw_singular(replay, k);

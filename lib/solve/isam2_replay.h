@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 #include "lib/solve/isam2.h"
 
@@ -19,8 +20,8 @@ struct Isam2Replay {
   Values file;                       // start_values without; of a file without estimates: empty
   PoseIndex poses;
   Replay steps;
-  ByStep vertices;  // by step
-  ByStep edges;     // by step
+  Lists<> vertices;  // by step
+  Lists<> edges;     // by step
   std::vector<bool> placed;
   Isam2 isam;
 };

@@ -33,7 +33,7 @@ void append_columns(const std::vector<Index>& earlier, Index j, NormalEquations&
 void set_pairs(const Pattern& pattern, std::span<const Index> rows_of_j, Index j,
                const std::vector<int>& place, NormalEquations& normal) {
   for (Index r : rows_of_j) {
-    const auto variables = pattern.row(r);
+    const auto variables = pattern.rows[r];
     const auto count = static_cast<Offset>(variables.size());
     const auto b = std::find(variables.begin(), variables.end(), j) - variables.begin();
     for (Offset a = 0; a < count; ++a) {
@@ -54,7 +54,7 @@ void add_pair(const double* a, int dim_a, const double* b, int dim_b, int height
 }
 
 void add_row(const LinearSystem& system, Index r, NormalEquations& normal) {
-  const auto variables = system.pattern->row(r);
+  const auto variables = system.pattern->rows[r];
   const auto count = static_cast<Offset>(variables.size());
   const int height = system.height[r];
   const int* const places = normal.pair_at.data() + normal.pair_begin[r];
@@ -93,14 +93,14 @@ NormalEquations normal_structure(const LinearSystem& system, const Order& order)
     scalars += pattern.dim[j];
   }
   normal.pair_begin.push_back(0);
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    const auto count = static_cast<Offset>(pattern.row(r).size());
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    const auto count = static_cast<Offset>(pattern.rows[r].size());
     normal.pair_begin.push_back(normal.pair_begin.back() + count * count);
   }
   normal.pair_at.assign(normal.pair_begin.back(), -1);
 
   const Adjacency neighbours = adjacency(pattern);
-  const Columns rows_of = columns(pattern);
+  const Lists<> rows_of = columns(pattern);
   std::vector<int> place(pattern.variables(), -1);
   normal.column_begin.push_back(0);
   for (Index j : order) {
@@ -126,7 +126,7 @@ void form_normal_equations(const LinearSystem& system, std::span<const double> d
                            NormalEquations& normal) {
   std::ranges::fill(normal.numbers, 0.0);
   std::ranges::fill(normal.gradient, 0.0);
-  for (Index r = 0; r < system.pattern->rows(); ++r) add_row(system, r, normal);
+  for (Index r = 0; r < system.pattern->rows.size(); ++r) add_row(system, r, normal);
   if (damping.empty()) return;
   for (std::size_t j = 0; j < normal.dim.size(); ++j) {
     for (int k = 0; k < normal.dim[j]; ++k) {
@@ -142,11 +142,11 @@ void diagonal_and_gradient(const LinearSystem& system, std::vector<double>& diag
   const auto step_at = starts(pattern.dim);
   diagonal.assign(step_at.back(), 0.0);
   gradient.assign(step_at.back(), 0.0);
-  for (Index r = 0; r < pattern.rows(); ++r) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
     const int height = system.height[r];
     const double* column = system.block(r);
     const double* const right = system.numbers.data() + system.begin[r + 1] - height;
-    for (Index j : pattern.row(r)) {
+    for (Index j : pattern.rows[r]) {
       for (Index k = step_at[j]; k < step_at[j + 1]; ++k, column += height) {
         diagonal[k] += dot(column, column, height);
         gradient[k] += dot(column, right, height);

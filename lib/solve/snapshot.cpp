@@ -9,20 +9,19 @@ void take_patterns(const Isam2& isam, Snapshot& snapshot, std::vector<Index>& ro
   snapshot.variable.clear();
   Pattern& pattern = snapshot.pattern;
   pattern.dim.clear();
-  pattern.row_begin.assign(1, 0);
-  pattern.row_variables.clear();
+  pattern.rows.clear();
   for (Index j = 0; j < whole.variables(); ++j) {
     if (isam.clique[j] < 0) continue;
     number[j] = static_cast<Index>(snapshot.variable.size());
     snapshot.variable.push_back(j);
     pattern.dim.push_back(whole.dim[j]);
   }
-  for (Index r = 0; r < whole.rows(); ++r) {
+  for (Index r = 0; r < whole.rows.size(); ++r) {
     if (isam.row_clique[r] < 0) continue;
     if (r == isam.problem->graph->edges()) snapshot.anchored = pattern;
     Pattern& target = r == isam.problem->graph->edges() ? snapshot.anchored : pattern;
-    for (Index j : whole.row(r)) target.row_variables.push_back(number[j]);
-    target.row_begin.push_back(static_cast<Index>(target.row_variables.size()));
+    for (Index j : whole.rows[r]) target.rows.items.push_back(number[j]);
+    target.rows.close();
     row.push_back(r);
   }
   if (isam.problem->held < 0) snapshot.anchored = pattern;
@@ -44,7 +43,7 @@ void take_snapshot(const Isam2& isam, bool numbers, Snapshot& snapshot) {
     system.height.push_back(gauge ? problem.variables.pattern.dim[problem.held]
                                   : problem.model[r]->dim);
     int width = 1;
-    for (Index j : problem.variables.pattern.row(r)) width += problem.variables.pattern.dim[j];
+    for (Index j : problem.variables.pattern.rows[r]) width += problem.variables.pattern.dim[j];
     system.begin.push_back(system.begin.back() + system.height.back() * width);
   }
   system.numbers.resize(system.begin.back());

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "lib/solve/cholmod.h"
+#include "lib/solve/normal_equations.h"
+#include "lib/sparse/cholesky.h"
 
 namespace sg {
 namespace {
@@ -49,15 +50,13 @@ std::vector<Index> undetermined_variables(const LinearSystem& system, const Orde
   std::mt19937 bits(1);
   for (double& number : normal.gradient) number = 0.5 + bits() / (2.0 * std::mt19937::max());
 
-  CholmodCommon cholmod;
-  cholmod_common& common = cholmod.common;
-  common.supernodal = CHOLMOD_SIMPLICIAL;
-  common.dbound = held_pivot;
-  const CholmodFactor factor = analyze(normal, common);
-  cholmod_sparse H = view(normal);
-  cholmod_factorize(&H, factor.get(), &common);
-  cholmod_dense right = view(normal.gradient);
-  const CholmodDense x(cholmod_solve(CHOLMOD_A, factor.get(), &right, &common), {&common});
+  Cholmod session;
+  session.common.supernodal = CHOLMOD_SIMPLICIAL;
+  session.common.dbound = held_pivot;
+  cholmod_sparse H = view(normal.column_begin, normal.rows, normal.numbers);
+  const CholmodFactor factor = analyze(H, CHOLMOD_NATURAL, session);
+  factorize(H, *factor, session);
+  const CholmodDense x = solve(*factor, normal.gradient, session);
 
   const auto moved = movements(normal, static_cast<const double*>(x->x));
   const double limit = noticeable * *std::ranges::max_element(moved);

@@ -7,42 +7,38 @@ namespace sg {
 namespace {
 
 // The landmarks of a square, sorted by the cells of a grid.
-struct Cells {
-  double size;               // of a cell, metres
-  Index across;              // cells along one side
-  std::vector<Index> begin;  // across^2 + 1, into landmarks
-  std::vector<Index> landmarks;
+struct Grid {
+  double size;        // of a cell, metres
+  Index across;       // cells along one side
+  Lists<> landmarks;  // of every cell, row by row
 
   Index along(double x) const {
     return std::clamp(static_cast<Index>(std::floor(x / size)), 0, across - 1);
   }
-  Index of(const Eigen::Vector3d& point) const {
+  Index cell(const Eigen::Vector3d& point) const {
     return along(point.y()) * across + along(point.x());
   }
 };
 
-Cells sorted_by_cell(const std::vector<Eigen::Vector3d>& points, double side, double range) {
-  Cells cells;
-  cells.size = std::max(range, side / 4096);
-  cells.across = static_cast<Index>(side / cells.size) + 1;
-  cells.begin.assign(static_cast<std::size_t>(cells.across) * cells.across + 1, 0);
-  for (const auto& point : points) ++cells.begin[cells.of(point) + 1];
-  for (std::size_t c = 1; c < cells.begin.size(); ++c) cells.begin[c] += cells.begin[c - 1];
-  cells.landmarks.resize(points.size());
-  std::vector<Index> next(cells.begin.begin(), cells.begin.end() - 1);
-  for (std::size_t l = 0; l < points.size(); ++l) {
-    cells.landmarks[next[cells.of(points[l])]++] = static_cast<Index>(l);
-  }
-  return cells;
+Grid sorted_by_cell(const std::vector<Eigen::Vector3d>& points, double side, double range) {
+  Grid grid;
+  grid.size = std::max(range, side / 4096);
+  grid.across = static_cast<Index>(side / grid.size) + 1;
+  std::vector<Index> cell;
+  for (const auto& point : points) cell.push_back(grid.cell(point));
+  grid.landmarks = grouped(cell, grid.across * grid.across);
+  return grid;
 }
 
 // Calls use(landmark) for every landmark that may be within range.
 template <class Use>
-void for_each_near(const Cells& cells, const SE2& pose, double range, const Use& use) {
-  for (Index row = cells.along(pose.y - range); row <= cells.along(pose.y + range); ++row) {
-    const Index from = row * cells.across + cells.along(pose.x - range);
-    const Index to = row * cells.across + cells.along(pose.x + range);
-    for (Index i = cells.begin[from]; i < cells.begin[to + 1]; ++i) use(cells.landmarks[i]);
+void for_each_near(const Grid& grid, const SE2& pose, double range, const Use& use) {
+  for (Index row = grid.along(pose.y - range); row <= grid.along(pose.y + range); ++row) {
+    const Index from = row * grid.across + grid.along(pose.x - range);
+    const Index to = row * grid.across + grid.along(pose.x + range);
+    for (Index cell = from; cell <= to; ++cell) {
+      for (const Index l : grid.landmarks[cell]) use(l);
+    }
   }
 }
 
@@ -57,16 +53,16 @@ std::vector<Eigen::Vector3d> trees(const City& world, Index side, Random& random
 }
 
 void look(const City& world, double side, Random& random, LandmarkGraph& graph) {
-  const Cells cells = sorted_by_cell(graph.landmarks, side, world.optics.range);
+  const Grid grid = sorted_by_cell(graph.landmarks, side, world.optics.range);
   for (const SE2& pose : graph.poses) {
     const SE2 robot = inverse(pose);
-    for_each_near(cells, pose, world.optics.range, [&](Index l) {
+    for_each_near(grid, pose, world.optics.range, [&](Index l) {
       Eigen::Vector3d point(0, 0, 0);
       point.head<2>() = act(robot, graph.landmarks[l].head<2>());
       if (!sees(world.optics, world.sensor, point)) return;
-      if (chance(random, world.detection)) graph.seen.push_back(l);
+      if (chance(random, world.detection)) graph.seen.items.push_back(l);
     });
-    end_observations(graph);
+    graph.seen.close();
   }
 }
 

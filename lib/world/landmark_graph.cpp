@@ -171,11 +171,11 @@ void odometry_line(const LandmarkGraph& graph, Index k, const SE3& z, Out& out) 
 // For every landmark the pose in the middle of its observations.
 std::vector<Index> middle_poses(const LandmarkGraph& graph) {
   std::vector<Index> left(graph.landmarks.size()), middle(graph.landmarks.size());
-  for (const Index l : graph.seen) ++left[l];
+  for (const Index l : graph.seen.items) ++left[l];
   for (Index& count : left) count = count / 2 + 1;
   for (Index k = 0; k < static_cast<Index>(graph.poses.size()); ++k) {
-    for (Index i = graph.seen_begin[k]; i < graph.seen_begin[k + 1]; ++i) {
-      if (--left[graph.seen[i]] == 0) middle[graph.seen[i]] = k;
+    for (const Index l : graph.seen[k]) {
+      if (--left[l] == 0) middle[l] = k;
     }
   }
   return middle;
@@ -196,8 +196,7 @@ std::vector<bool> triangulated(const LandmarkGraph& graph, const Triangulation& 
   std::vector<Vector3d> first(graph.landmarks.size());
   std::vector<bool> parallax(graph.landmarks.size());
   for (Index k = 0; k < static_cast<Index>(graph.poses.size()); ++k) {
-    for (Index i = graph.seen_begin[k]; i < graph.seen_begin[k + 1]; ++i) {
-      const Index l = graph.seen[i];
+    for (const Index l : graph.seen[k]) {
       const Vector3d now = direction(graph, k, l);
       if (count[l]++ == 0) first[l] = now;
       if (now.dot(first[l]) <= cosine) parallax[l] = true;
@@ -239,8 +238,7 @@ void write_edges(const LandmarkGraph& graph, Odometry<Pose> motions, Out& out) {
   for (Index k = 0; k < static_cast<Index>(graph.poses.size()); ++k) {
     if (k > 0) odometry_line(graph, k, measured_motion(motions, k), out);
     const Pose world = inverse(true_pose<Pose>(graph, k));
-    for (Index i = graph.seen_begin[k]; i < graph.seen_begin[k + 1]; ++i) {
-      const Index l = graph.seen[i];
+    for (const Index l : graph.seen[k]) {
       Observation observation = observe(graph, act(world, true_landmark<Pose>(graph, l)));
       if (motions.copy == Copy::noisy) disturb(observation, graph.sensor, random);
       observation_line(graph, k, l, observation, out);
@@ -268,32 +266,23 @@ bool sees(const Optics& optics, Sensor sensor, const Vector3d& point) {
   return std::max(std::abs(across), std::abs(up)) <= optics.view / 2 * degree;
 }
 
-void end_observations(LandmarkGraph& graph) {
-  if (graph.seen.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
-    throw computation_error("more than 2^31 observations");
-  }
-  graph.seen_begin.push_back(static_cast<Index>(graph.seen.size()));
-}
-
 void keep_triangulated(LandmarkGraph& graph, const Triangulation& wanted) {
   const std::vector<bool> keep = triangulated(graph, wanted);
   std::vector<Index> number(graph.landmarks.size(), -1);
   std::vector<Vector3d> landmarks;
-  std::vector<Index> seen_begin{0}, seen;
-  for (std::size_t k = 0; k < graph.poses.size(); ++k) {
-    for (Index i = graph.seen_begin[k]; i < graph.seen_begin[k + 1]; ++i) {
-      const Index l = graph.seen[i];
+  Lists<> seen;
+  for (Index k = 0; k < graph.seen.size(); ++k) {
+    for (const Index l : graph.seen[k]) {
       if (!keep[l]) continue;
       if (number[l] < 0) {
         number[l] = static_cast<Index>(landmarks.size());
         landmarks.push_back(graph.landmarks[l]);
       }
-      seen.push_back(number[l]);
+      seen.items.push_back(number[l]);
     }
-    seen_begin.push_back(static_cast<Index>(seen.size()));
+    seen.close();
   }
   graph.landmarks = std::move(landmarks);
-  graph.seen_begin = std::move(seen_begin);
   graph.seen = std::move(seen);
 }
 

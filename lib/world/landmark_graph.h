@@ -25,6 +25,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/graph/lists.h"
 #include "lib/world/odometry.h"
 
 namespace sg {
@@ -57,8 +58,7 @@ struct LandmarkGraph {
   Optics optics;
   std::vector<SE2> poses;                  // true ones, of the robot
   std::vector<Eigen::Vector3d> landmarks;  // true ones; a planar sensor ignores z
-  std::vector<Index> seen_begin{0};        // poses + 1, into seen
-  std::vector<Index> seen;                 // landmarks that each pose observes
+  Lists<> seen;                            // landmarks that each pose observes
   PoseNoise odometry_noise{};
   double guess_noise = 0.1;  // metres along each axis, of landmark estimates
   Guess guess = Guess::odometry;
@@ -78,10 +78,6 @@ LandmarkGraph begin_landmark_graph(const World& world) {
   graph.seed = world.seed;
   return graph;
 }
-
-// Closes the observations of one more pose. Throws a computation Error when they are too many for an
-// Index.
-void end_observations(LandmarkGraph& graph);
 
 // What makes a landmark worth having: a direction alone, as mono and bearing measure it, determines
 // no point, and directions that hardly differ let Gauss-Newton diverge.

@@ -81,9 +81,9 @@ void look(const Sine& world, LandmarkGraph& graph) {
       const Eigen::Vector3d& landmark = graph.landmarks[l];
       Eigen::Vector3d point;
       point << act(inverse(pose), landmark.head<2>()), landmark.z();
-      if (sees(world.optics, world.sensor, point)) graph.seen.push_back(l);
+      if (sees(world.optics, world.sensor, point)) graph.seen.items.push_back(l);
     }
-    end_observations(graph);
+    graph.seen.close();
   }
 }
 

@@ -30,8 +30,8 @@ LandmarkGraph worst(const Worst& world) {
   graph.landmarks = landmarks_before(std::max(10.0, line), world);
   for (Index k = 0; k < world.poses; ++k) {
     graph.poses.push_back(rounded(SE2{0, world.step * k - line / 2, 0}));
-    for (Index l = 0; l < world.landmarks; ++l) graph.seen.push_back(l);
-    end_observations(graph);
+    for (Index l = 0; l < world.landmarks; ++l) graph.seen.items.push_back(l);
+    graph.seen.close();
   }
   return graph;
 }

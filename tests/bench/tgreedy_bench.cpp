@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "formats/formats.h"
-#include "lib/elim/trees.h"
 #include "lib/prune/candidates.h"
 #include "lib/prune/tgreedy.h"
+#include "lib/trees/spanning_trees.h"
 #include "lib/world/sine.h"
 #include "tests/bench/worlds.h"
 

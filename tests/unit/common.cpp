@@ -27,11 +27,8 @@ Order shuffled(Random& random, Index n) {
 }
 
 Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows) {
-  Pattern pattern{std::move(dim), {0}, {}};
-  for (const auto& row : rows) {
-    pattern.row_variables.insert(pattern.row_variables.end(), row.begin(), row.end());
-    pattern.row_begin.push_back(static_cast<Index>(pattern.row_variables.size()));
-  }
+  Pattern pattern{std::move(dim), {}};
+  for (const auto& row : rows) pattern.rows.add(row);
   return pattern;
 }
 

@@ -22,8 +22,8 @@ namespace {
 
 std::vector<std::vector<Index>> rows_of(const Pattern& pattern) {
   std::vector<std::vector<Index>> rows;
-  for (Index r = 0; r < pattern.rows(); ++r)
-    rows.emplace_back(pattern.row(r).begin(), pattern.row(r).end());
+  for (Index r = 0; r < pattern.rows.size(); ++r)
+    rows.emplace_back(pattern.rows[r].begin(), pattern.rows[r].end());
   return rows;
 }
 
@@ -37,15 +37,15 @@ Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) 
   std::vector<Index> first(pattern.variables() + 1, 0);
   std::partial_sum(pattern.dim.begin(), pattern.dim.end(), first.begin() + 1);
   std::vector<std::vector<Index>> rows;
-  for (Index r = 0; r < pattern.rows() + pattern.variables(); ++r) {
+  for (Index r = 0; r < pattern.rows.size() + pattern.variables(); ++r) {
     auto& row = rows.emplace_back();
     const auto add = [&](Index j) {
       for (Index s = first[j]; s < first[j + 1]; ++s) row.push_back(s);
     };
-    if (r < pattern.rows()) {
-      for (Index j : pattern.row(r)) add(j);
+    if (r < pattern.rows.size()) {
+      for (Index j : pattern.rows[r]) add(j);
     } else {
-      add(r - pattern.rows());  // a variable is dense in itself
+      add(r - pattern.rows.size());  // a variable is dense in itself
     }
   }
   scalar_order.clear();
@@ -58,9 +58,9 @@ Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) 
 // Node elimination with nothing but sets.
 std::vector<EliminationStep> set_elimination(const Pattern& pattern, const Order& order) {
   std::vector<std::set<Index>> adjacent(pattern.variables());
-  for (Index r = 0; r < pattern.rows(); ++r) {
-    for (Index i : pattern.row(r)) {
-      for (Index j : pattern.row(r)) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    for (Index i : pattern.rows[r]) {
+      for (Index j : pattern.rows[r]) {
         if (i != j) adjacent[i].insert(j);
       }
     }

@@ -21,14 +21,10 @@ struct System {
 };
 
 void add_row(System& system, int height, const std::vector<sg::Index>& variables, Random& random) {
-  if (system.pattern.row_begin.empty()) system.pattern.row_begin.push_back(0);
   if (system.linear.begin.empty()) system.linear.begin.push_back(0);
   int width = 1;
-  for (sg::Index j : variables) {
-    system.pattern.row_variables.push_back(j);
-    width += system.pattern.dim[j];
-  }
-  system.pattern.row_begin.push_back(static_cast<sg::Index>(system.pattern.row_variables.size()));
+  for (sg::Index j : variables) width += system.pattern.dim[j];
+  system.pattern.rows.add(variables);
   system.linear.height.push_back(height);
   for (int k = 0; k < height * width; ++k) system.linear.numbers.push_back(uniform(random, -1, 1));
   system.linear.begin.push_back(static_cast<sg::Offset>(system.linear.numbers.size()));
@@ -70,10 +66,10 @@ Dense dense(const System& system) {
   for (int height : system.linear.height) rows += height;
   Dense result{Eigen::MatrixXd::Zero(rows, at.back()), Eigen::VectorXd::Zero(rows)};
   int row = 0;
-  for (sg::Index r = 0; r < system.pattern.rows(); ++r) {
+  for (sg::Index r = 0; r < system.pattern.rows.size(); ++r) {
     const int height = system.linear.height[r];
     const double* column = system.linear.block(r);
-    for (sg::Index j : system.pattern.row(r)) {
+    for (sg::Index j : system.pattern.rows[r]) {
       for (int k = 0; k < system.pattern.dim[j]; ++k, column += height)
         result.a.block(row, at[j] + k, height, 1) =
             Eigen::Map<const Eigen::VectorXd>(column, height);
@@ -295,20 +291,20 @@ TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
     sg::back_substitute(elimination, step);
     gradient.assign(step.size(), 0);
     double scale = 0;
-    for (sg::Index r = 0; r < system.pattern->rows(); ++r) {
+    for (sg::Index r = 0; r < system.pattern->rows.size(); ++r) {
       const int height = system.height[r];
       const auto column = [&](int k) {
         return Eigen::Map<const Eigen::VectorXd>(system.block(r) + k * height, height);
       };
       int k = 0;
       Eigen::VectorXd error = Eigen::VectorXd::Zero(height);
-      for (sg::Index j : system.pattern->row(r)) {
+      for (sg::Index j : system.pattern->rows[r]) {
         for (int i = 0; i < system.pattern->dim[j]; ++i)
           error += column(k++) * step[problem.step_at[j] + i];
       }
       error -= column(k);
       k = 0;
-      for (sg::Index j : system.pattern->row(r)) {
+      for (sg::Index j : system.pattern->rows[r]) {
         for (int i = 0; i < system.pattern->dim[j]; ++i, ++k) {
           gradient[problem.step_at[j] + i] += column(k).dot(error);
           scale = std::max(scale, column(k).norm() * error.norm());

@@ -127,13 +127,13 @@ std::string message_of(const std::string& text) {
 Eigen::MatrixXd dense(const Problem& problem, const LinearSystem& system) {
   const Pattern& pattern = *system.pattern;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(0, problem.step_at.back() + 1);
-  for (Index r = 0; r < pattern.rows(); ++r) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
     const auto top = all.rows();
     const int height = system.height[r];
     all.conservativeResize(top + height, Eigen::NoChange);
     all.bottomRows(height).setZero();
     const double* block = system.block(r);
-    for (Index j : pattern.row(r)) {
+    for (Index j : pattern.rows[r]) {
       all.block(top, problem.step_at[j], height, pattern.dim[j]) =
           Eigen::Map<const Eigen::MatrixXd>(block, height, pattern.dim[j]);
       block += height * pattern.dim[j];

@@ -140,9 +140,9 @@ TEST_CASE("adjacency is the graph of A^T A", "[graph]") {
     const GraphPattern graph = graph_pattern(graph_of(random_graph(random)));
     const Pattern& pattern = graph.pattern;
     std::vector<std::set<Index>> expected(pattern.variables());
-    for (Index r = 0; r < pattern.rows(); ++r) {
-      for (Index i : pattern.row(r)) {
-        for (Index j : pattern.row(r)) {
+    for (Index r = 0; r < pattern.rows.size(); ++r) {
+      for (Index i : pattern.rows[r]) {
+        for (Index j : pattern.rows[r]) {
           if (i != j) expected[i].insert(j);
         }
       }
@@ -164,8 +164,8 @@ TEST_CASE("fixed vertices are no variables, and a factor counts a variable once"
   const GraphPattern pattern = graph_pattern(graph);
   CHECK(pattern.variable_vertex == std::vector<Index>{1});
   CHECK(pattern.vertex_variable == std::vector<Index>{-1, 0, -1});
-  CHECK(pattern.pattern.row_begin == std::vector<Index>{0, 1, 2, 2});
-  CHECK(pattern.pattern.row_variables == std::vector<Index>{0, 0});
+  CHECK(pattern.pattern.rows.begin == std::vector<Index>{0, 1, 2, 2});
+  CHECK(pattern.pattern.rows.items == std::vector<Index>{0, 0});
 }
 
 TEST_CASE("a wrong line is named with its cause", "[graph]") {

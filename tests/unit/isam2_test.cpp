@@ -93,7 +93,7 @@ void check_tree(const sg::Isam2& isam) {
       const sg::Index r = list[clique.frontals + clique.separators + k];
       CHECK(rows.insert(r).second);
       CHECK(isam.row_clique[r] == c);
-      for (sg::Index j : isam.problem->variables.pattern.row(r)) CHECK(members.contains(j));
+      for (sg::Index j : isam.problem->variables.pattern.rows[r]) CHECK(members.contains(j));
     }
     CHECK((clique.parent < 0) == (clique.separators == 0));
     if (clique.parent >= 0) {

@@ -44,9 +44,9 @@ sg::Wide literal_ec(const Pattern& pattern, const Order& order) {
 Pattern side_by_side(const Pattern& a, const Pattern& b) {
   Pattern both = a;
   both.dim.insert(both.dim.end(), b.dim.begin(), b.dim.end());
-  for (Index r = 0; r < b.rows(); ++r) {
-    for (const Index j : b.row(r)) both.row_variables.push_back(a.variables() + j);
-    both.row_begin.push_back(static_cast<Index>(both.row_variables.size()));
+  for (Index r = 0; r < b.rows.size(); ++r) {
+    for (const Index j : b.rows[r]) both.rows.items.push_back(a.variables() + j);
+    both.rows.close();
   }
   return both;
 }
@@ -126,11 +126,8 @@ TEST_CASE("methods that order part by part give each part its own order", "[orde
 // A path has an order without fill, and all minimum-degree and profile methods find one.
 TEST_CASE("paths are ordered without fill", "[order]") {
   for (const Index n : {2, 3, 10, 500}) {
-    Pattern path{std::vector<int>(n, 3), {0}, {}};
-    for (Index j = 0; j + 1 < n; ++j) {
-      path.row_variables.insert(path.row_variables.end(), {j + 1, j});
-      path.row_begin.push_back(static_cast<Index>(path.row_variables.size()));
-    }
+    Pattern path{std::vector<int>(n, 3), {}};
+    for (Index j = 0; j + 1 < n; ++j) path.rows.add(std::array{j + 1, j});
     for (const char* name : {"id", "colamd", "amd", "wmf", "mmd", "rcm", "king", "sloan"}) {
       INFO(name << ", " << n << " variables");
       const Order order = sg::elimination_order(name, path);

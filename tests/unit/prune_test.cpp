@@ -188,7 +188,7 @@ MatrixXd solve_and_marginalize(Kind kind, const std::vector<Factor>& factors,
 struct Pruned {
   Graph graph;
   PoseIndex poses;
-  Odometry odometry;
+  Lists<> odometry;
   std::vector<bool> keyframe;
 };
 Pruned analyzed(const std::string& text, const KeyframeRule& rule) {

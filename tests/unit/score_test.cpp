@@ -8,10 +8,11 @@
 #include "formats/formats.h"
 #include "formats/tum.h"
 #include "lib/factor/linearize.h"
+#include "lib/graph/summary.h"
 #include "lib/order/order.h"
-#include "lib/score/connectivity.h"
 #include "lib/score/dopt.h"
 #include "lib/score/trajectory.h"
+#include "lib/trees/connectivity.h"
 #include "tests/unit/common.h"
 
 using namespace sg;
@@ -175,8 +176,8 @@ TEST_CASE("D-optimality is the log determinant of the dense system", "[score]") 
     LinearSystem system = make_linear_system(problem);
     linearize(problem, file_values(problem), {}, system);
     MatrixXd information = MatrixXd::Zero(3 * n, 3 * n);
-    for (Index r = 0; r < system.pattern->rows(); ++r) {
-      const auto row = system.pattern->row(r);
+    for (Index r = 0; r < system.pattern->rows.size(); ++r) {
+      const auto row = system.pattern->rows[r];
       MatrixXd jacobian = MatrixXd::Zero(system.height[r], 3 * n);
       for (std::size_t k = 0; k < row.size(); ++k) {
         jacobian.middleCols(3 * row[k], 3) = Eigen::Map<const MatrixXd>(

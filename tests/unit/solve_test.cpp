@@ -66,10 +66,10 @@ struct Dense {
 Dense dense(const Problem& problem, const LinearSystem& system) {
   const int n = problem.step_at.back();
   Dense sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
-  for (Index r = 0; r < system.pattern->rows(); ++r) {
+  for (Index r = 0; r < system.pattern->rows.size(); ++r) {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(system.height[r], n);
     const double* block = system.block(r);
-    for (Index j : system.pattern->row(r)) {
+    for (Index j : system.pattern->rows[r]) {
       const int dim = system.pattern->dim[j];
       A.middleCols(problem.step_at[j], dim) =
           Eigen::Map<const Eigen::MatrixXd>(block, A.rows(), dim);

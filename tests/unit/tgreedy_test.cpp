@@ -7,8 +7,8 @@
 #include <map>
 
 #include "formats/formats.h"
-#include "lib/elim/trees.h"
 #include "lib/prune/candidates.h"
+#include "lib/trees/spanning_trees.h"
 #include "tests/unit/common.h"
 
 using namespace sg;

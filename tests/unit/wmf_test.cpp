@@ -44,9 +44,9 @@ struct Literal {
   std::vector<std::set<Index>> neighbours;
 
   explicit Literal(const Pattern& pattern) : dim(pattern.dim), neighbours(pattern.dim.size()) {
-    for (Index r = 0; r < pattern.rows(); ++r) {
-      for (Index a : pattern.row(r)) {
-        for (Index b : pattern.row(r)) {
+    for (Index r = 0; r < pattern.rows.size(); ++r) {
+      for (Index a : pattern.rows[r]) {
+        for (Index b : pattern.rows[r]) {
           if (a != b) neighbours[a].insert(b);
         }
       }

@@ -252,7 +252,7 @@ TEST_CASE("sine lies in the regime of the paper", "[world]") {
   CHECK(landmarks == Approx(440).epsilon(0.08));
   CHECK(observations / 400 == Approx(50).epsilon(0.1));
   std::vector<int> seen(landmarks);
-  for (const Index l : world.seen) ++seen[l];
+  for (const Index l : world.seen.items) ++seen[l];
   CHECK(*std::min_element(seen.begin(), seen.end()) >= 3);
 }
 
@@ -282,7 +282,7 @@ TEST_CASE("sine keeps what a sensor sees, and its path its step", "[world]") {
       observations += in_view;
     }
   }
-  CHECK(observations == graph.seen.size());
+  CHECK(observations == graph.seen.items.size());
 }
 
 TEST_CASE("landmarks that stay are triangulated", "[world]") {
@@ -290,13 +290,13 @@ TEST_CASE("landmarks that stay are triangulated", "[world]") {
   graph.sensor = sg::Sensor::bearing;
   graph.poses = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   graph.landmarks = {{1000, 1, 0}, {2, 2, 0}, {5, 0, 0}, {3, 1, 0}};
-  graph.seen = {3, 0, 1, 0, 1, 2, 0, 1, 2};  // landmark 3 once, 2 along a line, 0 too far away
-  graph.seen_begin = {0, 3, 6, 9};
+  // Landmark 3 once, 2 along a line, 0 too far away.
+  graph.seen = {{0, 3, 6, 9}, {3, 0, 1, 0, 1, 2, 0, 1, 2}};
   sg::keep_triangulated(graph, {.observations = 2, .parallax = 1});
   REQUIRE(graph.landmarks.size() == 1);
   CHECK(graph.landmarks[0] == Vector3d(2, 2, 0));
-  CHECK(graph.seen == std::vector<Index>{0, 0, 0});
-  CHECK(graph.seen_begin == std::vector<Index>{0, 1, 2, 3});
+  CHECK(graph.seen.items == std::vector<Index>{0, 0, 0});
+  CHECK(graph.seen.begin == std::vector<Index>{0, 1, 2, 3});
 }
 
 TEST_CASE("worst joins every landmark to every pose", "[world]") {
@@ -386,7 +386,7 @@ TEST_CASE("city finds all landmarks in view", "[world]") {
       seen += d <= 7 && d >= 0.1 && off <= std::acos(-1.0) / 3;
     }
   }
-  CHECK(seen == graph.seen.size());
+  CHECK(seen == graph.seen.items.size());
 }
 
 TEST_CASE("a seed gives the same world again, another seed another", "[world]") {

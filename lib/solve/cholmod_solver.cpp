@@ -1,16 +1,16 @@
-#include "lib/solve/cholmod.h"
-
 #include <algorithm>
+#include <memory>
 
 #include "lib/solve/linear_solver.h"
-#include "lib/text/error.h"
+#include "lib/solve/normal_equations.h"
+#include "lib/sparse/cholesky.h"
 
 namespace sg {
 namespace {
 
 struct State {
   NormalEquations normal;
-  CholmodCommon cholmod;
+  Cholmod session;
   CholmodFactor factor{nullptr, {nullptr}};
 };
 
@@ -40,17 +40,12 @@ bool has_vanished_pivot(const State& state) {
 
 bool factorize(State& state, const LinearSystem& system, std::span<const double> damping) {
   form_normal_equations(system, damping, state.normal);
-  cholmod_sparse H = view(state.normal);
-  cholmod_factorize(&H, state.factor.get(), &state.cholmod.common);
-  if (state.cholmod.common.status < CHOLMOD_OK)
-    throw computation_error("CHOLMOD ran out of memory");
-  return state.cholmod.common.status == CHOLMOD_OK && !has_vanished_pivot(state);
+  cholmod_sparse H = view(state.normal.column_begin, state.normal.rows, state.normal.numbers);
+  return factorize(H, *state.factor, state.session) && !has_vanished_pivot(state);
 }
 
 void solve(State& state, std::vector<double>& step) {
-  cholmod_common& common = state.cholmod.common;
-  cholmod_dense g = view(state.normal.gradient);
-  const CholmodDense x(cholmod_solve(CHOLMOD_A, state.factor.get(), &g, &common), {&common});
+  const CholmodDense x = solve(*state.factor, state.normal.gradient, state.session);
   const auto* numbers = static_cast<const double*>(x->x);
   step.resize(state.normal.gradient.size());
   for (std::size_t j = 0; j < state.normal.dim.size(); ++j) {
@@ -61,40 +56,6 @@ void solve(State& state, std::vector<double>& step) {
 
 }  // namespace
 
-cholmod_sparse view(NormalEquations& normal) {
-  cholmod_sparse H{};
-  H.nrow = H.ncol = normal.gradient.size();
-  H.nzmax = normal.rows.size();
-  H.p = normal.column_begin.data();
-  H.i = normal.rows.data();
-  H.x = normal.numbers.data();
-  H.stype = 1;
-  H.itype = CHOLMOD_INT;
-  H.xtype = CHOLMOD_REAL;
-  H.dtype = CHOLMOD_DOUBLE;
-  H.sorted = H.packed = 1;
-  return H;
-}
-
-cholmod_dense view(std::vector<double>& column) {
-  cholmod_dense dense{};
-  dense.nrow = dense.nzmax = dense.d = column.size();
-  dense.ncol = 1;
-  dense.x = column.data();
-  dense.xtype = CHOLMOD_REAL;
-  dense.dtype = CHOLMOD_DOUBLE;
-  return dense;
-}
-
-CholmodFactor analyze(NormalEquations& normal, cholmod_common& common) {
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_NATURAL;
-  common.postorder = 1;
-  common.print = 0;
-  cholmod_sparse H = view(normal);
-  return {cholmod_analyze(&H, &common), {&common}};
-}
-
 LinearSolver cholmod_solver(const LinearSystem& system, const Order& order, int /*threads*/) {
   const auto state = std::make_shared<State>();
   state->normal = normal_structure(system, order);
@@ -102,10 +63,11 @@ LinearSolver cholmod_solver(const LinearSystem& system, const Order& order, int 
     return {[](const LinearSystem&, std::span<const double>) { return true; },
             [](std::vector<double>& step) { step.clear(); }};
   }
-  state->cholmod.common.supernodal = CHOLMOD_SUPERNODAL;
-  state->cholmod.common.quick_return_if_not_posdef = 1;
-  state->factor = analyze(state->normal, state->cholmod.common);
-  if (!state->factor) throw computation_error("CHOLMOD ran out of memory");
+  state->session.common.supernodal = CHOLMOD_SUPERNODAL;
+  state->session.common.quick_return_if_not_posdef = 1;
+  NormalEquations& normal = state->normal;
+  cholmod_sparse H = view(normal.column_begin, normal.rows, normal.numbers);
+  state->factor = analyze(H, CHOLMOD_NATURAL, state->session);
   return {[state](const LinearSystem& s, std::span<const double> damping) {
             return factorize(*state, s, damping);
           },

@@ -17,13 +17,9 @@
 #include <span>
 #include <vector>
 
-#include "lib/graph/graph.h"
+#include "lib/trees/tree_weights.h"
 
 namespace sg {
-
-struct TreeEdge {
-  Index u, v;
-};
 
 struct SpanningTrees {
   std::vector<Index> position;  // of every node in the elimination order

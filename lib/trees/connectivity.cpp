@@ -1,4 +1,4 @@
-#include "lib/score/connectivity.h"
+#include "lib/trees/connectivity.h"
 
 #include <Spectra/SymEigsSolver.h>
 
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "lib/elim/trees.h"
 #include "lib/text/error.h"
+#include "lib/trees/spanning_trees.h"
 
 namespace sg {
 namespace {
@@ -21,14 +21,13 @@ struct LayerGraph {
 
 // Nodes without a link are left out where others have some: but not under unit weights, where every
 // node could have one, and its lack of it is a lack of the graph.
-LayerGraph layer_graph(const Graph& graph, const TreeNodes& nodes, const TreeLayer& layer,
+LayerGraph layer_graph(const Lists<TreeEdge>& links, Index nodes, const TreeLayer& layer,
                        bool keep_isolated) {
   LayerGraph result;
-  std::vector<Index> number(nodes.count, keep_isolated ? 0 : -1);
-  for (Index e = 0; e < graph.edges(); ++e) {
-    const auto ends = graph.edge(e);
-    for (std::size_t k = 1; k < ends.size() && layer.weight[e] > 0; ++k) {
-      const TreeEdge link{nodes.node[ends[0]], nodes.node[ends[k]]};
+  std::vector<Index> number(nodes, keep_isolated ? 0 : -1);
+  for (Index e = 0; e < links.size(); ++e) {
+    if (!(layer.weight[e] > 0)) continue;
+    for (const TreeEdge& link : links[e]) {
       if (link.u == link.v) continue;
       number[link.u] = number[link.v] = 0;
       result.links.push_back(link);
@@ -45,10 +44,11 @@ LayerGraph layer_graph(const Graph& graph, const TreeNodes& nodes, const TreeLay
 std::vector<LayerGraph> layer_graphs(const Graph& graph, TreeWeights kind,
                                      std::vector<double>& multiplicity) {
   const TreeNodes nodes = tree_nodes(graph);
+  const Lists<TreeEdge> links = tree_links(graph, nodes);
   std::vector<LayerGraph> graphs;
   for (const TreeLayer& layer : tree_layers(graph, kind)) {
     const bool all = kind != TreeWeights::rotation && graphs.empty();  // landmarks do not rotate
-    graphs.push_back(layer_graph(graph, nodes, layer, all));
+    graphs.push_back(layer_graph(links, nodes.count, layer, all));
     multiplicity.push_back(layer.multiplicity);
   }
   return graphs;
@@ -127,22 +127,6 @@ std::optional<double> algebraic_connectivity(const Graph& graph, TreeWeights wei
   SpanningTrees trees = spanning_trees(layer.nodes, layer.links, layer.weight);
   if (!connected(trees)) return 0;
   return layer.nodes <= dense_limit ? dense_connectivity(layer) : sparse_connectivity(trees);
-}
-
-std::optional<double> average_observations(const Graph& graph) {
-  std::int64_t landmarks = 0, observations = 0;
-  for (Index v = 0; v < graph.vertices(); ++v) landmarks += graph.role(v) == Role::landmark;
-  for (Index e = 0; e < graph.edges(); ++e) {
-    std::int64_t of_edge = 0;
-    bool pose = false;
-    for (Index v : graph.edge(e)) {
-      of_edge += graph.role(v) == Role::landmark;
-      pose = pose || graph.role(v) == Role::pose;
-    }
-    if (pose) observations += of_edge;
-  }
-  if (landmarks == 0) return std::nullopt;
-  return static_cast<double>(observations) / static_cast<double>(landmarks);
 }
 
 }  // namespace sg

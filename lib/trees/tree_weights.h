@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lib/graph/graph.h"
+#include "lib/graph/lists.h"
 
 namespace sg {
 
@@ -27,6 +28,12 @@ struct TreeNodes {
   std::vector<Index> node;  // n: of every vertex
 };
 TreeNodes tree_nodes(const Graph& graph);
+
+// The links between nodes that every edge makes: from its first vertex to each of the others.
+struct TreeEdge {
+  Index u, v;
+};
+Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes);
 
 // What one kind of weight makes of the edges. An edge of weight 0 has no part in it. D-optimality
 // has two layers, all others one.

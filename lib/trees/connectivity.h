@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "lib/graph/graph.h"
-#include "lib/graph/tree_weights.h"
+#include "lib/trees/tree_weights.h"
 
 namespace sg {
 
@@ -21,8 +21,5 @@ double log_trees(const Graph& graph, TreeWeights weights);
 // for a graph of less than two nodes, and under TreeWeights::dopt, which has two Laplacians. Throws
 // a computation Error if the iteration does not converge.
 std::optional<double> algebraic_connectivity(const Graph& graph, TreeWeights weights);
-
-// Mean number of edges to poses that a landmark has; nothing without landmarks.
-std::optional<double> average_observations(const Graph& graph);
 
 }  // namespace sg

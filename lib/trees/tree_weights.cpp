@@ -1,4 +1,4 @@
-#include "lib/graph/tree_weights.h"
+#include "lib/trees/tree_weights.h"
 
 #include <algorithm>
 #include <array>
@@ -109,6 +109,17 @@ TreeNodes tree_nodes(const Graph& graph) {
     nodes.node[v] = nodes.count++;
   }
   return nodes;
+}
+
+Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes) {
+  Lists<TreeEdge> links;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const auto ends = graph.edge(e);
+    for (std::size_t k = 1; k < ends.size(); ++k)
+      links.items.push_back({nodes.node[ends[0]], nodes.node[ends[k]]});
+    links.close();
+  }
+  return links;
 }
 
 std::vector<TreeLayer> tree_layers(const Graph& graph, TreeWeights kind) {

@@ -1,32 +1,14 @@
-#include "lib/elim/trees.h"
-
-#include <cholmod.h>
+#include "lib/trees/spanning_trees.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 
+#include "lib/sparse/cholesky.h"
 #include "lib/text/error.h"
 
 namespace sg {
 namespace {
-
-struct Common {
-  cholmod_common common{};
-  Common() {
-    cholmod_start(&common);
-    common.final_ll = false;  // L D L^T
-    common.supernodal = CHOLMOD_SIMPLICIAL;
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_AMD;
-    common.postorder = true;
-    common.print = 0;
-  }
-  ~Common() { cholmod_finish(&common); }
-  Common(const Common&) = delete;
-  Common& operator=(const Common&) = delete;
-};
 
 Index root(std::vector<Index>& part, Index node) {
   while (part[node] != node) node = part[node] = part[part[node]];
@@ -46,30 +28,19 @@ void find_parts(SpanningTrees& trees, std::span<const TreeEdge> links,
 }
 
 // The lower triangle of the grounded Laplacian, links of weight 0 included.
-cholmod_sparse* laplacian(SpanningTrees& trees, std::span<const TreeEdge> links,
-                          std::span<const double> weight, cholmod_common& common) {
-  const Index n = static_cast<Index>(trees.part.size());
-  cholmod_triplet* triplet =
-      cholmod_allocate_triplet(n, n, 3 * links.size() + n, -1, CHOLMOD_REAL, &common);
-  if (!triplet) throw std::bad_alloc();
-  auto* i = static_cast<int*>(triplet->i);
-  auto* j = static_cast<int*>(triplet->j);
-  auto* x = static_cast<double*>(triplet->x);
-  const auto put = [&](Index row, Index column, double value) {
-    i[triplet->nnz] = row, j[triplet->nnz] = column, x[triplet->nnz++] = value;
-  };
-  for (Index v = 0; v < n; ++v) put(v, v, trees.part[v] == v ? 1 : 0);
+Triplets laplacian(const SpanningTrees& trees, std::span<const TreeEdge> links,
+                   std::span<const double> weight) {
+  Triplets lower;
+  for (Index v = 0; v < static_cast<Index>(trees.part.size()); ++v)
+    lower.add(v, v, trees.part[v] == v ? 1 : 0);
   for (std::size_t k = 0; k < links.size(); ++k) {
     const auto [u, v] = links[k];
     if (u == v) continue;
-    put(u, u, weight[k]);
-    put(v, v, weight[k]);
-    put(std::max(u, v), std::min(u, v), -weight[k]);
+    lower.add(u, u, weight[k]);
+    lower.add(v, v, weight[k]);
+    lower.add(std::max(u, v), std::min(u, v), -weight[k]);
   }
-  cholmod_sparse* sparse = cholmod_triplet_to_sparse(triplet, 0, &common);
-  cholmod_free_triplet(&triplet, &common);
-  if (!sparse) throw std::bad_alloc();
-  return sparse;
+  return lower;
 }
 
 // Takes the columns of CHOLMOD's factor, diagonal first in each.
@@ -93,15 +64,14 @@ void take_factor(SpanningTrees& trees, const cholmod_factor& factor) {
 
 void factorize(SpanningTrees& trees, std::span<const TreeEdge> links,
                std::span<const double> weight) {
-  Common session;
-  cholmod_common& common = session.common;
-  cholmod_sparse* matrix = laplacian(trees, links, weight, common);
-  cholmod_factor* factor = cholmod_analyze(matrix, &common);
-  const bool done = factor && cholmod_factorize(matrix, factor, &common) &&
-                    factor->minor == factor->n && common.status == CHOLMOD_OK;
+  Cholmod session;
+  session.common.final_ll = false;  // L D L^T
+  session.common.supernodal = CHOLMOD_SIMPLICIAL;
+  Triplets lower = laplacian(trees, links, weight);
+  const CholmodSparse matrix = sparse_matrix(static_cast<Index>(trees.part.size()), lower, session);
+  const CholmodFactor factor = analyze(*matrix, CHOLMOD_AMD, session);
+  const bool done = factorize(*matrix, *factor, session);
   if (done) take_factor(trees, *factor);
-  cholmod_free_factor(&factor, &common);
-  cholmod_free_sparse(&matrix, &common);
   if (!done || std::any_of(trees.diagonal.begin(), trees.diagonal.end(),
                            [](double d) { return !(d > 0) || !std::isfinite(d); }))
     throw computation_error("the graph's Laplacian cannot be factored: weights differ too much");
