@@ -17,7 +17,7 @@ fuzz_packages  := clang libclang-rt-14-dev
 plot_packages  := gnuplot-nox graphviz
 
 .DEFAULT_GOAL := build
-.PHONY: help deps build demo check mutants install uninstall bench fuzz paper orderings lint format clean
+.PHONY: help deps build demo check mutants install uninstall bench fuzz tsan paper orderings lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -78,6 +78,12 @@ fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 secon
 	@$(call configure,$(commands_alone))
 	@$(call build,fuzzers)
 	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
+
+tsan: PRESET := tsan
+tsan: build/packages/build build/packages/test ## run what is parallel under the thread sanitizer
+	@$(call configure,-DSGTOOLS_TESTS=ON)
+	@$(call build,unit_tests)
+	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" $(BUILD)/tests/unit_tests "[parallel]"
 
 paper: build build/packages/plot ## reproduce every figure and table of the paper, into out/paper
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/paper OUT=$(CURDIR)/out/paper

@@ -14,6 +14,7 @@
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/batch.h"
+#include "lib/solve/front.h"
 #include "lib/text/words.h"
 
 namespace {
@@ -195,6 +196,7 @@ void run(const sg::Command& command, const Options& options) {
   if (options.chi2 && options.runs > 0) throw sg::usage_error("--chi2 or --time, not both");
   sg::find_backend(options.backend);
   sg::check(options.method);
+  sg::kernels();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
   const sg::Graph graph = sg::read(options.input);

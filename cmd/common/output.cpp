@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -25,30 +26,35 @@ mode_t new_file_mode() {
   return 0666 & ~mask;
 }
 
-// Temporary files, where a signal handler finds them; an empty path is a free place. No command
+// Temporary files, where a signal handler finds them: a path is whole while `taken`. No command
 // writes more files at a time.
-using Path = std::array<char, 4096>;
-std::array<Path, 4> doomed{};
+struct Doomed {
+  std::array<char, 4096> path;
+  std::atomic<bool> taken;
+};
+static_assert(std::atomic<bool>::is_always_lock_free);  // what a signal handler may look at
+std::array<Doomed, 4> doomed{};
 
 void doom(const std::string& path) {
-  for (Path& place : doomed) {
-    if (place[0] != '\0' || path.size() >= place.size()) continue;
-    path.copy(place.data(), path.size());
-    place[path.size()] = '\0';
+  for (Doomed& place : doomed) {
+    if (place.taken || path.size() >= place.path.size()) continue;
+    path.copy(place.path.data(), path.size());
+    place.path[path.size()] = '\0';
+    place.taken = true;
     return;
   }
 }
 
 void spare(const std::string& path) {
-  for (Path& place : doomed) {
-    if (path == place.data()) place[0] = '\0';
+  for (Doomed& place : doomed) {
+    if (place.taken && path == place.path.data()) place.taken = false;
   }
 }
 
 // Only what a signal handler may do.
 void on_signal(int signal) {
-  for (const Path& path : doomed) {
-    if (path[0] != '\0') ::unlink(path.data());
+  for (const Doomed& place : doomed) {
+    if (place.taken) ::unlink(place.path.data());
   }
   if (signal == SIGBUS) {  // a mapped file has lost its end
     constexpr std::string_view cause = "the input became shorter while it was read\n";

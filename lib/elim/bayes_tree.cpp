@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <span>
 
 namespace sg {
@@ -19,6 +20,8 @@ Lists<> reversed(const Lists<>& lists) {
 
 BayesTree bayes_tree(const Symbolic& symbolic) {
   const auto n = static_cast<Index>(symbolic.parent.size());
+  assert(symbolic.dim.size() == symbolic.parent.size());
+  assert(symbolic.count.size() == symbolic.parent.size());
   BayesTree tree;
   tree.clique.assign(n, -1);
   std::vector<bool> topped(n, false);  // a child has joined on top of this position
@@ -49,6 +52,7 @@ Lists<> clique_frontals(const BayesTree& tree) {
 
 Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
   const Index cliques = tree.cliques();
+  assert(tree.clique.size() == pattern.dim.size());
   const Lists<> children = grouped(tree.parent, cliques);
   std::vector<Index> row_clique;
   for (Index r = 0; r < pattern.rows.size(); ++r)

@@ -1,5 +1,7 @@
 #include "lib/elim/counts.h"
 
+#include <cassert>
+
 namespace sg {
 namespace {
 
@@ -77,6 +79,7 @@ std::vector<std::int64_t> count_differences(const Postordered& post) {
 
 std::vector<std::int64_t> column_counts(const Links& links, const std::vector<int>& dim,
                                         const std::vector<Index>& parent) {
+  assert(dim.size() == parent.size() && static_cast<Index>(dim.size()) == links.size);
   const Postordered post = postordered(links, dim, parent);
   std::vector<std::int64_t> sum = count_differences(post);
   for (std::size_t j = 1; j <= post.place.size(); ++j) sum[post.parent[j]] += sum[j];

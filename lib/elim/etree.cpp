@@ -1,6 +1,7 @@
 #include "lib/elim/etree.h"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace sg {
@@ -17,6 +18,15 @@ std::vector<Index> positions(const Order& order, Index n) {
     position[order[k]] = k;
   }
   return position;
+}
+
+// Whether every vertex comes before its parent.
+[[maybe_unused]] bool is_forest(const std::vector<Index>& parent) {
+  const auto n = static_cast<Index>(parent.size());
+  for (Index k = 0; k < n; ++k) {
+    if (parent[k] != -1 && (parent[k] <= k || parent[k] >= n)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -85,6 +95,10 @@ Links links(const OrderedPattern& pattern) {
 }
 
 std::vector<Index> elimination_tree(const Links& links) {
+  assert(std::ranges::is_sorted(links.list, {}, &Link::upper));
+  assert(std::ranges::all_of(links.list, [&](const Link& link) {
+    return 0 <= link.lower && link.lower < link.upper && link.upper < links.size;
+  }));
   std::vector<Index> parent(links.size, -1);
   std::vector<Index> ancestor(links.size, -1);
   for (const Link& link : links.list) {
@@ -104,6 +118,7 @@ std::vector<Index> elimination_tree(const Links& links) {
 }
 
 std::vector<Index> subtree_sizes(const std::vector<Index>& parent) {
+  assert(is_forest(parent));
   std::vector<Index> size(parent.size(), 1);
   for (std::size_t k = 0; k < parent.size(); ++k) {
     if (parent[k] >= 0) size[parent[k]] += size[k];
@@ -113,6 +128,7 @@ std::vector<Index> subtree_sizes(const std::vector<Index>& parent) {
 
 std::vector<Index> postorder_ranks(const std::vector<Index>& parent,
                                    const std::vector<Index>& size) {
+  assert(is_forest(parent) && size.size() == parent.size());
   // From the last root down, every vertex takes the last free place of its parent's subtree.
   std::vector<Index> rank(parent.size());
   std::vector<Index> free_end(parent.size());  // of every vertex's subtree
@@ -133,6 +149,7 @@ std::vector<Index> postorder(const std::vector<Index>& parent) {
 }
 
 Index height(const std::vector<Index>& parent) {
+  assert(is_forest(parent));
   std::vector<Index> depth(parent.size(), 1);
   Index deepest = 0;
   for (auto k = static_cast<Index>(parent.size()) - 1; k >= 0; --k) {

@@ -1,11 +1,13 @@
 #include "lib/elim/structure.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sg {
 
 void visit_separators(const OrderedPattern& pattern, const std::vector<Index>& parent,
                       const VisitSeparator& visit) {
+  assert(parent.size() == pattern.dim.size());
   std::vector<std::vector<Index>> named(pattern.variables());  // by children that have gone
   Index r = 0;                                                 // rows are grouped by first position
   for (Index k = 0; k < pattern.variables(); ++k) {

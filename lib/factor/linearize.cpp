@@ -4,14 +4,17 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "lib/text/error.h"
 
 namespace sg {
 namespace {
 
+// Those of A_r, without b.
 int columns(const Pattern& pattern, Index r) {
-  int sum = 0;
-  for (Index j : pattern.rows[r]) sum += pattern.dim[j];
-  return sum;
+  return block_columns(pattern, r) - 1;
 }
 
 void gauge_row(int dim, double* block) {
@@ -59,15 +62,36 @@ void reweigh(const Kernel& kernel, int dim, int columns, double* block) {
 
 }  // namespace
 
+int block_rows(const Problem& problem, Index r) {
+  const bool gauge = r >= problem.graph->edges();
+  return gauge ? problem.variables.pattern.dim[problem.held] : problem.model[r]->dim;
+}
+
+int block_columns(const Pattern& pattern, Index r) {
+  int sum = 1;
+  for (Index j : pattern.rows[r]) sum += pattern.dim[j];
+  return sum;
+}
+
+bool is_laid_out(const LinearSystem& system) {
+  const Index rows = system.pattern->rows.size();
+  if (static_cast<Index>(system.height.size()) != rows) return false;
+  if (static_cast<Index>(system.begin.size()) != rows + 1) return false;
+  for (Index r = 0; r < rows; ++r) {
+    const Offset size = Offset{system.height[r]} * block_columns(*system.pattern, r);
+    if (system.begin[r + 1] - system.begin[r] != size) return false;
+  }
+  return system.begin.back() == static_cast<Offset>(system.numbers.size());
+}
+
 LinearSystem make_linear_system(const Problem& problem) {
   LinearSystem system;
   const Pattern& pattern = problem.variables.pattern;
   system.pattern = &pattern;
   system.begin.push_back(0);
   for (Index r = 0; r < pattern.rows.size(); ++r) {
-    const bool gauge = r == problem.graph->edges();
-    system.height.push_back(gauge ? pattern.dim[problem.held] : problem.model[r]->dim);
-    system.begin.push_back(system.begin.back() + system.height.back() * (columns(pattern, r) + 1));
+    system.height.push_back(block_rows(problem, r));
+    system.begin.push_back(system.begin.back() + system.height.back() * block_columns(pattern, r));
   }
   system.numbers.assign(system.begin.back(), 0.0);
   return system;
@@ -76,6 +100,8 @@ LinearSystem make_linear_system(const Problem& problem) {
 void linearize_row(const Problem& problem, const Values& values, const Kernel& kernel, Index r,
                    double* block) {
   const Pattern& pattern = problem.variables.pattern;
+  assert(0 <= r && r < pattern.rows.size());
+  assert(static_cast<Index>(values.size()) == problem.value_at.back());
   if (r >= problem.graph->edges()) return gauge_row(pattern.dim[problem.held], block);
   const Model& model = *problem.model[r];
   const Ends x = ends_of(problem, values, r);
@@ -95,14 +121,30 @@ void linearize_row(const Problem& problem, const Values& values, const Kernel& k
   if (kernel.shape != KernelShape::none) reweigh(kernel, model.dim, columns(pattern, r), block);
 }
 
+void check_row(const Problem& problem, Index r, std::span<const double> block) {
+  bool fine = true;
+  for (double number : block) fine &= std::abs(number) <= largest_entry;  // false for NaN, too
+  if (fine) return;
+  const Graph& graph = *problem.graph;
+  const bool finite = std::ranges::all_of(block, [](double x) { return std::isfinite(x); });
+  throw Error(
+      Fault::computation, graph.file, line_number(graph, graph.edge_line[r]),
+      graph.type_of_edge(r).tag +
+          (finite ? " weighs too much to calculate with: its information or its error is too large"
+                  : " has no derivative at this estimate"));
+}
+
 void linearize(const Problem& problem, const Values& values, const Kernel& kernel,
                LinearSystem& system) {
+  assert(is_laid_out(system) && system.pattern->dim == problem.variables.pattern.dim);
   using Range = tbb::blocked_range<Index>;
   tbb::parallel_for(Range(0, system.pattern->rows.size(), 512), [&](const Range& range) {
     for (Index r = range.begin(); r != range.end(); ++r) {
       linearize_row(problem, values, kernel, r, system.block(r));
     }
   });
+  for (Index r = 0; r < problem.graph->edges(); ++r)  // the first one in the file is told
+    check_row(problem, r, {system.block(r), system.block(r + 1)});
 }
 
 double edge_chi2(const Problem& problem, const Values& values, Index e) {

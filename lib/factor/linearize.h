@@ -27,15 +27,29 @@ struct LinearSystem {
   double* block(Index r) { return numbers.data() + begin[r]; }
 };
 
+// Rows and columns of row r's block; columns with b.
+int block_rows(const Problem& problem, Index r);
+int block_columns(const Pattern& pattern, Index r);
+
+// Whether blocks follow one another, each as large as its row of the pattern says.
+bool is_laid_out(const LinearSystem& system);
+
 // Its structure, with all numbers zero.
 LinearSystem make_linear_system(const Problem& problem);
+LinearSystem make_linear_system(const Problem&&) = delete;
 
 // Row r of the system at `values`: writes its block, height x (columns + 1) numbers. Rows beyond
 // the edges: the gauge's. Thread-safe; allocates nothing.
 void linearize_row(const Problem& problem, const Values& values, const Kernel& kernel, Index r,
                    double* block);
 
-// All rows, in parallel.
+// Throws a computation Error at the line of edge r if a number of its block is not finite (where an
+// observer and what it observes coincide, or a point lies in a camera's plane, an edge has no
+// derivative), or so large that a sum of squares might not be.
+void check_row(const Problem& problem, Index r, std::span<const double> block);
+constexpr double largest_entry = 1e140;
+
+// All rows, in parallel, and checked.
 void linearize(const Problem& problem, const Values& values, const Kernel& kernel,
                LinearSystem& system);
 

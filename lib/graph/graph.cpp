@@ -1,6 +1,7 @@
 #include "lib/graph/graph.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "lib/text/error.h"
@@ -42,6 +43,7 @@ std::optional<Index> find_vertex(const Graph& graph, Id id) {
 }
 
 std::string_view line_at(const Graph& graph, Offset line) {
+  assert(line != implied);
   auto rest = graph.text.view.substr(static_cast<std::size_t>(line));
   return next_line(rest);
 }

@@ -8,6 +8,7 @@
 // Vertices are numbered 0..n-1 by ascending id, edges 0..m-1 in file order.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -55,6 +56,7 @@ struct Graph {
   Index vertices() const { return static_cast<Index>(id.size()); }
   Index edges() const { return static_cast<Index>(edge_type.size()); }
   std::span<const Index> edge(Index e) const {
+    assert(0 <= e && e < edges());
     return {edge_vertices.data() + edge_begin[e],
             static_cast<std::size_t>(edge_begin[e + 1] - edge_begin[e])};
   }

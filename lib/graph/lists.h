@@ -3,6 +3,7 @@
 // graph, the cliques of a tree and all their like.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <numeric>
 #include <span>
@@ -23,6 +24,7 @@ struct Lists {
 
   Index size() const { return static_cast<Index>(begin.size()) - 1; }
   std::span<const Item> operator[](Index k) const {
+    assert(0 <= k && k < size());
     return {items.data() + begin[k], static_cast<std::size_t>(begin[k + 1] - begin[k])};
   }
 
@@ -47,7 +49,10 @@ Lists<Item> counting_sort(Index count, const auto& each) {
   Lists<Item> result;
   std::vector<Index>& begin = result.begin;
   begin.assign(static_cast<std::size_t>(count) + 2, 0);
-  each([&](Index list, const Item&) { ++begin[list + 2]; });
+  each([&](Index list, const Item&) {
+    assert(0 <= list && list < count);
+    ++begin[list + 2];
+  });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   result.items.resize(begin.back());
   each([&](Index list, const Item& item) { result.items[begin[list + 1]++] = item; });

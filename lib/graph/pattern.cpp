@@ -1,6 +1,7 @@
 #include "lib/graph/pattern.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sg {
 namespace {
@@ -31,6 +32,15 @@ GraphPattern pattern_of(const Graph& graph, const auto& has_vertex, const auto& 
 
 }  // namespace
 
+bool is_permutation(std::span<const Index> order, Index n) {
+  std::vector<bool> seen(n, false);
+  for (Index j : order) {
+    if (j < 0 || j >= n || seen[j]) return false;
+    seen[j] = true;
+  }
+  return static_cast<Index>(order.size()) == n;
+}
+
 GraphPattern graph_pattern(const Graph& graph) {
   const auto all = [](Index) { return true; };
   return pattern_of(graph, all, all);
@@ -38,6 +48,7 @@ GraphPattern graph_pattern(const Graph& graph) {
 
 GraphPattern graph_pattern(const Graph& graph, const std::vector<bool>& vertex_in,
                            const std::vector<bool>& edge_in) {
+  assert(vertex_in.size() == graph.id.size() && edge_in.size() == graph.edge_type.size());
   return pattern_of(
       graph, [&](Index v) { return vertex_in[v]; }, [&](Index e) { return edge_in[e]; });
 }

@@ -2,6 +2,7 @@
 // every variable. It is all that ordering and elimination ever see of a graph.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "lib/graph/graph.h"
@@ -18,6 +19,7 @@ struct Pattern {
 
 // An elimination order: order[k] is the variable that goes k-th. A permutation of 0..n-1.
 using Order = std::vector<Index>;
+bool is_permutation(std::span<const Index> order, Index n);
 
 // Variables are the graph's vertices that are not fixed, by ascending id; rows are its edges in
 // file order. variable_vertex[j] is the vertex of variable j; vertex_variable[v] the variable of

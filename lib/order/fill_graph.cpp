@@ -1,6 +1,7 @@
 #include "lib/order/fill_graph.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -208,6 +209,8 @@ void count_fill(FillGraph& g, std::int64_t work_limit) {
 FillGraph fill_graph(const Adjacency& graph, const std::vector<int>& dim, std::vector<int> stage,
                      std::int64_t work_limit) {
   const Index n = graph.size();
+  assert(static_cast<Index>(dim.size()) == n);
+  assert(stage.empty() || static_cast<Index>(stage.size()) == n);
   FillGraph g;
   g.variables = supervariables(dim);
   g.stage = std::move(stage);
@@ -237,6 +240,7 @@ FillGraph fill_graph(const Adjacency& graph, const std::vector<int>& dim, std::v
 }
 
 void eliminate(FillGraph& g, Index v) {
+  assert(g.exact && g.variables.alive[v]);
   const std::span<const Index> around = neighbours(g, v);
   std::vector<Index>& clique = g.clique;
   clique.assign(around.begin(), around.end());

@@ -1,6 +1,7 @@
 // A priority queue of variables whose keys change: an indexed 4-ary heap.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -60,6 +61,7 @@ inline void sink(MinQueue& queue, std::size_t at) {
 // Inserts v, or changes its key.
 inline void set_key(MinQueue& queue, Index v, double key) {
   using namespace min_queue_detail;
+  assert(0 <= v && v < static_cast<Index>(queue.place.size()));
   if (!queue.holds(v)) {
     queue.key[v] = key;
     queue.heap.push_back(v);
@@ -88,6 +90,7 @@ inline void erase(MinQueue& queue, Index v) {
 }
 
 inline Index pop(MinQueue& queue) {
+  assert(!queue.empty());
   const Index v = queue.heap.front();
   erase(queue, v);
   return v;

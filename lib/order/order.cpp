@@ -1,6 +1,7 @@
 #include "lib/order/order.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 
 #include "lib/order/methods.h"
@@ -50,7 +51,10 @@ const Ordering& find_ordering(std::string_view name) {
 
 Order elimination_order(const Ordering& ordering, const Pattern& pattern,
                         const OrderOptions& options) {
+  assert(options.file_order.empty() || is_permutation(options.file_order, pattern.variables()));
+  assert(options.landmark.empty() || options.landmark.size() == pattern.dim.size());
   Order order = ordering.compute(pattern, options);
+  assert(is_permutation(order, pattern.variables()));
   move_to_end(order, options.last);
   return order;
 }

@@ -1,6 +1,7 @@
 #include "lib/order/quotient_graph.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace sg {
@@ -150,6 +151,7 @@ QuotientGraph quotient_graph(FillGraph&& graph) {
 }
 
 void eliminate(QuotientGraph& g, Index p) {
+  assert(g.variables.alive[p] && !g.is_element[p]);
   std::vector<Index> front = new_element(g, p);
   count_outside(g, front);
   for (Index i : front) prune(g, i);

@@ -1,6 +1,7 @@
 #include "lib/order/region.h"
 
 #include <algorithm>
+#include <cassert>
 #include <queue>
 #include <utility>
 
@@ -100,6 +101,7 @@ OrderedElimination elimination(const Pattern& pattern, const Order& order) {
 }
 
 Region region(const OrderedElimination& e, Index root, Index size) {
+  assert(0 <= root && root < static_cast<Index>(e.parent.size()) && size > 0);
   Region result{root, top_of_subtree(e, root, size), {}, 0};
   Lists<>& rows = result.pattern.rows;
   rows = region_rows(e, result.inside);
@@ -127,6 +129,7 @@ Wide region_ec(const Region& region, const Order& order) {
 
 std::vector<Index> reordered_subtree(const OrderedElimination& e, const Region& region,
                                      const Order& order) {
+  assert(is_permutation(order, region.pattern.variables()));
   std::vector<Index> result;
   for (Index k = e.first[region.root]; k <= region.root; ++k) {
     if (!std::binary_search(region.inside.begin(), region.inside.end(), k)) {

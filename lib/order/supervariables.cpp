@@ -1,6 +1,7 @@
 #include "lib/order/supervariables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -20,6 +21,7 @@ Supervariables supervariables(const std::vector<int>& dim) {
 }
 
 void absorb(Supervariables& variables, Index kept, Index gone) {
+  assert(kept != gone && variables.alive[kept] && variables.alive[gone]);
   variables.weight[kept] += variables.weight[gone];
   variables.alive[gone] = false;
   variables.next[variables.tail[kept]] = gone;

@@ -1,6 +1,7 @@
 #include "lib/order/wmf.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -146,6 +147,7 @@ void try_bounds(const Pattern& pattern, const Adjacency& graph, GreedyOptions gr
 
 GreedyResult greedy_fill(const Pattern& pattern, const Adjacency& graph,
                          const GreedyOptions& options) {
+  assert(graph.size() == pattern.variables());
   const std::int64_t work_limit = options.exact_work * entries(graph);
   const Preference preference = preferences(graph.size(), options);
   FillGraph g = fill_graph(graph, pattern.dim, options.stage, work_limit);

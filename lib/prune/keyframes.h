@@ -57,6 +57,12 @@ struct Keyframing {
 // Error that names the first edge of which this does not hold. O(edges).
 Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Lists<>& odometry,
                       const std::vector<bool>& keyframe, bool move_loops);
+Keyframing keyframing(const Graph&&, const PoseIndex&, const Lists<>&, const std::vector<bool>&,
+                      bool) = delete;
+Keyframing keyframing(const Graph&, const PoseIndex&&, const Lists<>&, const std::vector<bool>&,
+                      bool) = delete;
+Keyframing keyframing(const Graph&, const PoseIndex&, const Lists<>&&, const std::vector<bool>&,
+                      bool) = delete;
 
 // The motion from pose `from` to another pose `to` of one segment, by pose index, composed from
 // odometry.

@@ -1,6 +1,7 @@
 // Numbers on a cache line's boundary, for frontal matrices.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -40,7 +41,10 @@ class ChunkedArena {
     for (std::int64_t k = 0; k < missing; ++k) base_.push_back(begin + k * chunk);
   }
 
-  double* at(std::int64_t offset) { return base_[offset / chunk] + offset % chunk; }
+  double* at(std::int64_t offset) {
+    assert(0 <= offset && offset / chunk < static_cast<std::int64_t>(base_.size()));
+    return base_[offset / chunk] + offset % chunk;
+  }
 
  private:
   std::vector<Arena> parts_;

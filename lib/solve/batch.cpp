@@ -50,17 +50,8 @@ void check_finite(double chi2) {
   }
 }
 
-// The system at the current estimate. Where an observer and what it observes coincide, or a point lies in a camera's
-// plane, an edge has no derivative.
 void relinearize(Run& run) {
   linearize(run.problem, run.values, run.options.kernel, run.system);
-  for (Index r = 0; r < run.problem.graph->edges(); ++r) {
-    const std::span<const double> block(run.system.block(r), run.system.block(r + 1));
-    if (std::ranges::all_of(block, [](double number) { return std::isfinite(number); })) continue;
-    const Graph& graph = *run.problem.graph;
-    throw Error(Fault::computation, graph.file, line_number(graph, graph.edge_line[r]),
-                graph.type_of_edge(r).tag + " has no derivative at this estimate");
-  }
 }
 
 bool small_change(const Run& run, double before, double after) {
@@ -170,6 +161,7 @@ BatchResult optimize(const Problem& problem, const Order& order, LinearSystem& s
                      const std::function<void(const Iteration&)>& report) {
   Run run{problem, order, system, solver, options, values, report, 0};
   run.chi2 = chi2(problem, values, options.kernel);
+  if (!std::isfinite(run.chi2)) relinearize(run);  // which names the edge
   check_finite(run.chi2);
   BatchResult result{run.chi2, run.chi2, 0, false};
   result.converged = options.method == BatchMethod::gauss_newton

@@ -42,7 +42,8 @@ struct BatchResult {
 };
 
 // Improves `values` in place; calls `report` (if given) after every iteration. Throws a computation Error that names
-// the undetermined vertices of a singular system, and one when the estimate leaves the finite numbers.
+// the undetermined vertices of a singular system, one when the estimate leaves the finite numbers, and those of
+// check_row (linearize.h).
 BatchResult optimize(const Problem& problem, const Order& order, LinearSystem& system,
                      const LinearSolver& solver, const BatchOptions& options, Values& values,
                      const std::function<void(const Iteration&)>& report = {});

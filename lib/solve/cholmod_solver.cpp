@@ -3,6 +3,7 @@
 
 #include "lib/solve/linear_solver.h"
 #include "lib/solve/normal_equations.h"
+#include "lib/solve/pivots.h"
 #include "lib/sparse/cholesky.h"
 
 namespace sg {
@@ -10,29 +11,24 @@ namespace {
 
 struct State {
   NormalEquations normal;
+  std::vector<double> floors;  // of pivots, by scalar in elimination order
   Cholmod session;
   CholmodFactor factor{nullptr, {nullptr}};
 };
 
-// The diagonal entry of H that L's k-th pivot came from.
-double diagonal_entry(const State& state, int k) {
-  const int scalar = static_cast<const int*>(state.factor->Perm)[k];
-  return state.normal.numbers[state.normal.column_begin[scalar + 1] - 1];
-}
-
-// Whether a pivot of the supernodal factor has vanished next to its diagonal entry.
+// Whether a pivot of the supernodal factor has vanished.
 bool has_vanished_pivot(const State& state) {
   const cholmod_factor& L = *state.factor;
   const auto* super = static_cast<const int*>(L.super);
   const auto* pi = static_cast<const int*>(L.pi);
   const auto* px = static_cast<const int*>(L.px);
   const auto* x = static_cast<const double*>(L.x);
+  const auto* scalar = static_cast<const int*>(L.Perm);
   for (std::size_t s = 0; s < L.nsuper; ++s) {
     const int height = pi[s + 1] - pi[s];
     for (int k = super[s]; k < super[s + 1]; ++k) {
-      const int column = k - super[s];
-      const double pivot = x[px[s] + column * (height + 1)];
-      if (!(pivot * pivot > singular_pivot * diagonal_entry(state, k))) return true;
+      const double root = x[px[s] + diagonal_at(k - super[s], height)];
+      if (!(root * root > state.floors[scalar[k]])) return true;
     }
   }
   return false;
@@ -40,6 +36,7 @@ bool has_vanished_pivot(const State& state) {
 
 bool factorize(State& state, const LinearSystem& system, std::span<const double> damping) {
   form_normal_equations(system, damping, state.normal);
+  set_floors(system, state.normal.scalar_at, state.floors);
   cholmod_sparse H = view(state.normal.column_begin, state.normal.rows, state.normal.numbers);
   return factorize(H, *state.factor, state.session) && !has_vanished_pivot(state);
 }
@@ -59,6 +56,7 @@ void solve(State& state, std::vector<double>& step) {
 LinearSolver cholmod_solver(const LinearSystem& system, const Order& order, int /*threads*/) {
   const auto state = std::make_shared<State>();
   state->normal = normal_structure(system, order);
+  state->floors.resize(state->normal.scalars());
   if (order.empty()) {  // which CHOLMOD does not take
     return {[](const LinearSystem&, std::span<const double>) { return true; },
             [](std::vector<double>& step) { step.clear(); }};

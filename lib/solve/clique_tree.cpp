@@ -1,6 +1,7 @@
 #include "lib/solve/clique_tree.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "lib/elim/bayes_tree.h"
@@ -89,35 +90,32 @@ void list_variables(const BayesTree& tree, const Order& order, const std::vector
   const auto n = static_cast<Index>(order.size());
   std::vector<Index> clique_at(n);
   for (Index k = 0; k < n; ++k) clique_at[k] = clique[tree.clique[k]];
-  Lists<> frontals = grouped(clique_at, result.cliques());
+  result.frontals = grouped(clique_at, result.cliques());
+  std::vector<Index>& frontals = result.frontals.items;
   std::vector<Index> rank(n);  // of a position in the new order
-  for (Index k = 0; k < n; ++k) rank[frontals.items[k]] = k;
+  for (Index k = 0; k < n; ++k) rank[frontals[k]] = k;
 
   std::vector<Index> kept(result.cliques());
   for (Index c = 0; c < tree.cliques(); ++c) {
     if (target[c] == c) kept[clique[c]] = c;
   }
-  result.separator_begin.assign(1, 0);
   for (Index c : kept) {
-    const auto begin = static_cast<std::ptrdiff_t>(result.separators.size());
-    for (Index p : separator_positions[c]) result.separators.push_back(rank[p]);
-    std::sort(result.separators.begin() + begin, result.separators.end());
-    result.separator_begin.push_back(static_cast<Index>(result.separators.size()));
+    for (Index p : separator_positions[c]) result.separators.items.push_back(rank[p]);
+    std::ranges::sort(result.separators.open());
+    result.separators.close();
   }
-  for (Index& p : frontals.items) p = order[p];
-  for (Index& k : result.separators) k = frontals.items[k];
-  result.frontal_begin = std::move(frontals.begin);
-  result.frontals = std::move(frontals.items);
+  for (Index& p : frontals) p = order[p];
+  for (Index& k : result.separators.items) k = frontals[k];
 }
 
 // A row is assembled where its first variable is eliminated.
 void place_rows(const Pattern& pattern, CliqueTree& result) {
   std::vector<Index> rank(pattern.variables());
   std::vector<Index> clique(pattern.variables());
-  for (Index c = 0; c < result.cliques(); ++c) {
-    for (Index k = result.frontal_begin[c]; k < result.frontal_begin[c + 1]; ++k) {
-      rank[result.frontals[k]] = k;
-      clique[result.frontals[k]] = c;
+  for (Index c = 0, position = 0; c < result.cliques(); ++c) {
+    for (Index j : result.frontals[c]) {
+      rank[j] = position++;
+      clique[j] = c;
     }
   }
   result.row_clique.resize(pattern.rows.size());
@@ -146,6 +144,7 @@ CliqueTree clique_tree(const Pattern& pattern, const Order& order, bool relaxed)
   sum_up(tree, clique, target, result);
   list_variables(tree, order, target, clique, clique_separators(by_position, tree), result);
   place_rows(pattern, result);
+  assert(is_permutation(result.frontals.items, pattern.variables()));
   return result;
 }
 

@@ -6,12 +6,11 @@
 // tree itself: every clique carries the sum over those that it was made of.
 //
 // Cliques stand in postorder, children before parents. Variables are renumbered along with them:
-// `frontals` is an elimination order of the same fill as the given one, in which every clique's are
+// the items of `frontals` are an elimination order of the same fill as the given one, in which every clique's are
 // consecutive.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "lib/graph/pattern.h"
@@ -19,25 +18,15 @@
 namespace sg {
 
 struct CliqueTree {
-  std::vector<Index> parent;           // C, -1 at a root
-  std::vector<Index> frontal_begin;    // C + 1, into frontals
-  std::vector<Index> frontals;         // n, in elimination order
-  std::vector<Index> separator_begin;  // C + 1, into separators
-  std::vector<Index> separators;       // in elimination order
-  std::vector<int> frontal_dim;        // C, scalars
-  std::vector<int> separator_dim;      // C, scalars
-  std::vector<std::int64_t> ec;        // C, its share of EC_BT
-  std::vector<Index> row_clique;       // m: where every row is assembled, -1 for an empty row
+  std::vector<Index> parent;       // C, -1 at a root
+  Lists<> frontals;                // C, all in elimination order
+  Lists<> separators;              // C, each in elimination order
+  std::vector<int> frontal_dim;    // C, scalars
+  std::vector<int> separator_dim;  // C, scalars
+  std::vector<std::int64_t> ec;    // C, its share of EC_BT
+  std::vector<Index> row_clique;   // m: where every row is assembled, -1 for an empty row
 
   Index cliques() const { return static_cast<Index>(parent.size()); }
-  std::span<const Index> frontals_of(Index c) const {
-    return {frontals.data() + frontal_begin[c],
-            static_cast<std::size_t>(frontal_begin[c + 1] - frontal_begin[c])};
-  }
-  std::span<const Index> separators_of(Index c) const {
-    return {separators.data() + separator_begin[c],
-            static_cast<std::size_t>(separator_begin[c + 1] - separator_begin[c])};
-  }
 };
 
 // relaxed: whether cliques may be merged; without, they are the Bayes tree's.

@@ -6,77 +6,31 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
-#include "lib/graph/lists.h"
+#include "lib/solve/assembly.h"
+#include "lib/solve/pivots.h"
 
 namespace sg {
 namespace {
 
-// Appends a run, or lengthens the last one of `first..` where it goes on.
-void append(std::vector<Run>& runs, std::size_t first, Run run) {
-  if (runs.size() > first) {
-    Run& last = runs.back();
-    if (last.from + last.length == run.from && last.to + last.length == run.to) {
-      last.length += run.length;
-      return;
-    }
-  }
-  runs.push_back(run);
-}
-
-// The runs of a factor's Gram matrix; row_at: of every variable in the front its first row there.
-void append_row_runs(const Pattern& pattern, Index r, const std::vector<int>& row_at, int last_row,
-                     std::vector<Run>& runs) {
-  const auto first = static_cast<std::ptrdiff_t>(runs.size());
-  int from = 0;
-  for (Index j : pattern.rows[r]) {
-    runs.push_back({from, row_at[j], pattern.dim[j]});
-    from += pattern.dim[j];
-  }
-  std::sort(runs.begin() + first, runs.end(),
-            [](const Run& a, const Run& b) { return a.to < b.to; });
-  runs.push_back({from, last_row, 1});
-}
-
-// The runs of the update that clique c passes to the front whose rows are row_at.
-void append_child_runs(const Pattern& pattern, const CliqueTree& tree, Index c,
-                       const std::vector<int>& row_at, int last_row, std::vector<Run>& runs) {
-  const std::size_t first = runs.size();
-  int from = 0;
-  for (Index j : tree.separators_of(c)) {
-    append(runs, first, {from, row_at[j], pattern.dim[j]});
-    from += pattern.dim[j];
-  }
-  append(runs, first, {from, last_row, 1});
-}
-
 // Where rows and children go in their clique's front.
 void plan_runs(const Pattern& pattern, Elimination& e) {
   const CliqueTree& tree = e.tree;
-  Lists<> rows = grouped(tree.row_clique, tree.cliques());
-  e.rows_begin = std::move(rows.begin);
-  e.rows = std::move(rows.items);
-  Lists<> children = grouped(tree.parent, tree.cliques());
-  e.children_begin = std::move(children.begin);
-  e.children = std::move(children.items);
+  e.rows = grouped(tree.row_clique, tree.cliques());
+  e.children = grouped(tree.parent, tree.cliques());
   std::vector<int> row_at(pattern.variables());
   for (Index c = 0; c < tree.cliques(); ++c) {
-    int row = 0;
-    for (const auto& variables : {tree.frontals_of(c), tree.separators_of(c)}) {
-      for (Index j : variables) {
-        row_at[j] = row;
-        row += pattern.dim[j];
-      }
+    const int last_row = place_variables(tree.frontals[c], tree.separators[c], pattern.dim, row_at);
+    for (Index r : e.rows[c]) {
+      append_runs(pattern.rows[r], pattern.dim, row_at, last_row, e.row_runs.items);
+      e.row_runs.close();
     }
-    for (Index i = e.rows_begin[c]; i < e.rows_begin[c + 1]; ++i) {
-      append_row_runs(pattern, e.rows[i], row_at, row, e.row_runs.runs);
-      e.row_runs.begin.push_back(static_cast<Index>(e.row_runs.runs.size()));
-    }
-    for (Index i = e.children_begin[c]; i < e.children_begin[c + 1]; ++i) {
-      append_child_runs(pattern, tree, e.children[i], row_at, row, e.child_runs.runs);
-      e.child_runs.begin.push_back(static_cast<Index>(e.child_runs.runs.size()));
+    for (Index child : e.children[c]) {
+      append_runs(tree.separators[child], pattern.dim, row_at, last_row, e.child_runs.items);
+      e.child_runs.close();
     }
   }
 }
@@ -87,7 +41,7 @@ void plan_scalars(const Pattern& pattern, Elimination& e) {
   for (int dim : pattern.dim) e.step_at.push_back(e.step_at.back() + dim);
   e.floor_at.resize(pattern.variables());
   Index scalar = 0;
-  for (Index j : e.tree.frontals) {
+  for (Index j : e.tree.frontals.items) {
     e.floor_at[j] = scalar;
     scalar += pattern.dim[j];
   }
@@ -149,8 +103,7 @@ Offset plan_updates(Elimination& e, const Elimination::Task& task, const std::ve
     e.u_at[c] = top[side];
     top[side] += e.front(c).size_u();
     peak[side] = std::max(peak[side], top[side]);
-    for (Index i = e.children_begin[c]; i < e.children_begin[c + 1]; ++i) {
-      const Index child = e.children[i];
+    for (Index child : e.children[c]) {
       if (child >= task.first) top[1 - side] = std::min(top[1 - side], e.u_at[child]);
     }
   }
@@ -187,32 +140,14 @@ void plan_storage(const LinearSystem& system, Elimination& e) {
         height == 0 ? 0 : (system.begin[r + 1] - system.begin[r]) / static_cast<Offset>(height);
     e.scratch_size = std::max(e.scratch_size, width * width + lane + height * (width + lane));
   }
-  e.scratch_size = round_up(static_cast<int>(e.scratch_size));
+  e.scratch_size = (e.scratch_size + lane - 1) / lane * lane;
   e.scratch = Arena(e.scratch_size * std::max<std::size_t>(e.tasks.size(), 1));
-}
-
-// The least that a pivot must be, from the largest diagonal entry that a factor gives a scalar.
-void set_floors(const LinearSystem& system, Elimination& e) {
-  std::fill(e.floors.begin(), e.floors.end(), 0.0);
-  for (Index r = 0; r < system.pattern->rows.size(); ++r) {
-    const double* column = system.block(r);
-    for (Index j : system.pattern->rows[r]) {
-      for (int k = 0; k < e.dim[j]; ++k) {
-        double square = 0;
-        for (int i = 0; i < system.height[r]; ++i) square += column[i] * column[i];
-        column += system.height[r];
-        double& floor = e.floors[e.floor_at[j] + k];
-        floor = std::max(floor, vanishing * square);
-      }
-    }
-  }
 }
 
 void damp(const Elimination& e, Index c, std::span<const double> damping, const Front& front) {
   int row = 0;
-  for (Index j : e.tree.frontals_of(c)) {
-    for (int k = 0; k < e.dim[j]; ++k, ++row)
-      front.l[row * (front.ld_l() + 1)] += damping[e.step_at[j] + k];
+  for (Index j : e.tree.frontals[c]) {
+    for (int k = 0; k < e.dim[j]; ++k, ++row) front.pivot(row) += damping[e.step_at[j] + k];
   }
 }
 
@@ -221,20 +156,21 @@ int eliminate_clique(Elimination& e, const LinearSystem& system, std::span<const
                      Index c, const Kernels& kernel, double* scratch) {
   const Front front = e.front(c);
   kernel.clear(front);
-  for (Index i = e.rows_begin[c]; i < e.rows_begin[c + 1]; ++i) {
-    const Index r = e.rows[i];
-    const Run* const runs = e.row_runs.data(i);
-    const int count = e.row_runs.count(i);
-    const int width = runs[count - 1].from + 1;
-    kernel.gram(system.block(r), system.height[r], width, scratch, scratch + width * width + lane);
-    kernel.add(front, scratch, width, runs, count);
+  for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i) {
+    const Index r = e.rows.items[i];
+    const auto runs = e.row_runs[i];
+    const int width = rows_covered(runs);
+    kernel.gram(system.block(r), system.height[r], width, scratch,
+                scratch + std::int64_t{width} * width + lane);
+    kernel.add(front, scratch, width, runs.data(), static_cast<int>(runs.size()));
   }
   if (!damping.empty()) damp(e, c, damping, front);
-  for (Index i = e.children_begin[c]; i < e.children_begin[c + 1]; ++i) {
-    const Front child = e.front(e.children[i]);
-    kernel.add(front, child.u, child.ld_u(), e.child_runs.data(i), e.child_runs.count(i));
+  for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i) {
+    const Front child = e.front(e.children.items[i]);
+    const auto runs = e.child_runs[i];
+    kernel.add(front, child.u, child.ld_u(), runs.data(), static_cast<int>(runs.size()));
   }
-  return kernel.factorize(front, e.floors.data() + e.floor_at[e.tree.frontals_of(c).front()]);
+  return kernel.factorize(front, e.floors.data() + e.floor_at[e.tree.frontals[c].front()]);
 }
 
 // Runs the tasks, children before parents, on as many threads as were planned.
@@ -264,24 +200,10 @@ void run_tasks(const Elimination& e, Work&& work) {
   });
 }
 
-std::vector<Index> vanished(Elimination& e) {
-  std::vector<Index> variables;
-  for (Index c = 0; c < e.tree.cliques(); ++c) {
-    const Front front = e.front(c);
-    int row = 0;
-    for (Index j : e.tree.frontals_of(c)) {
-      bool dropped = false;
-      for (int k = 0; k < e.dim[j]; ++k, ++row) dropped |= front.l[row * (front.ld_l() + 1)] == 0;
-      if (dropped) variables.push_back(j);
-    }
-  }
-  std::sort(variables.begin(), variables.end());
-  return variables;
-}
-
 }  // namespace
 
 Elimination plan_elimination(const LinearSystem& system, const Order& order, int threads) {
+  assert(is_laid_out(system));
   Elimination e;
   e.tree = clique_tree(*system.pattern, order);
   plan_scalars(*system.pattern, e);
@@ -293,7 +215,9 @@ Elimination plan_elimination(const LinearSystem& system, const Order& order, int
 
 std::vector<Index> eliminate(Elimination& e, const LinearSystem& system,
                              std::span<const double> damping) {
-  set_floors(system, e);
+  assert(is_laid_out(system) && system.pattern->dim == e.dim);
+  assert(damping.empty() || damping.size() == e.floors.size());
+  set_floors(system, e.floor_at, e.floors);
   const Kernels& kernel = kernels();
   std::atomic<int> dropped = 0;
   run_tasks(e, [&](Index t) {
@@ -303,7 +227,12 @@ std::vector<Index> eliminate(Elimination& e, const LinearSystem& system,
       here += eliminate_clique(e, system, damping, c, kernel, scratch);
     dropped += here;
   });
-  return dropped == 0 ? std::vector<Index>{} : vanished(e);
+  std::vector<Index> undetermined;
+  if (dropped == 0) return undetermined;
+  for (Index c = 0; c < e.tree.cliques(); ++c)
+    append_vanished(e.front(c), e.tree.frontals[c], e.dim, undetermined);
+  std::ranges::sort(undetermined);
+  return undetermined;
 }
 
 void back_substitute(Elimination& e, std::vector<double>& step) {
@@ -314,13 +243,13 @@ void back_substitute(Elimination& e, std::vector<double>& step) {
     const Front front = e.front(c);
     std::fill_n(x, front.ld_l(), 0.0);
     int row = front.f;
-    for (Index j : e.tree.separators_of(c)) {
+    for (Index j : e.tree.separators[c]) {
       for (int k = 0; k < e.dim[j]; ++k) x[row++] = step[e.step_at[j] + k];
     }
     x[row] = -1;
     kernel.back_substitute(front, x);
     row = 0;
-    for (Index j : e.tree.frontals_of(c)) {
+    for (Index j : e.tree.frontals[c]) {
       for (int k = 0; k < e.dim[j]; ++k) step[e.step_at[j] + k] = x[row++];
     }
   }
@@ -330,7 +259,7 @@ double log_determinant(Elimination& e) {
   double sum = 0;
   for (Index c = 0; c < e.tree.cliques(); ++c) {
     const Front front = e.front(c);
-    for (int k = 0; k < front.f; ++k) sum += std::log(front.l[k * (front.ld_l() + 1)]);
+    for (int k = 0; k < front.f; ++k) sum += std::log(front.pivot(k));
   }
   return 2 * sum;
 }

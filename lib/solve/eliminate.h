@@ -25,28 +25,18 @@
 
 namespace sg {
 
-// Lists of runs, laid flat.
-struct RunLists {
-  std::vector<Index> begin{0};
-  std::vector<Run> runs;
-  const Run* data(Index k) const { return runs.data() + begin[k]; }
-  int count(Index k) const { return begin[k + 1] - begin[k]; }
-};
-
 struct Elimination {
   CliqueTree tree;
   std::vector<int> dim;         // n, of every variable
   std::vector<Index> step_at;   // n + 1: where a variable's part of a step starts
   std::vector<Index> floor_at;  // n: where its pivots' floors are, in elimination order
 
-  std::vector<Offset> l_at;           // C, into conditionals
-  std::vector<Offset> u_at;           // C, into updates
-  std::vector<Index> rows_begin;      // C + 1, into rows
-  std::vector<Index> rows;            // by clique
-  RunLists row_runs;                  // by place in rows: from the Gram matrix to the front
-  std::vector<Index> children_begin;  // C + 1, into children
-  std::vector<Index> children;        // by clique
-  RunLists child_runs;                // by place in children: from its update to the front
+  std::vector<Offset> l_at;  // C, into conditionals
+  std::vector<Offset> u_at;  // C, into updates
+  Lists<> rows;              // C: what is assembled in every clique
+  Lists<> children;          // C
+  Lists<Run> row_runs;       // by place in rows: from the Gram matrix to the front
+  Lists<Run> child_runs;     // by place in children: from its update to the front
 
   // Consecutive cliques that one thread works through; a task's parent waits for it.
   struct Task {

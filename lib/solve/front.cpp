@@ -1,6 +1,10 @@
 #include "lib/solve/front.h"
 
 #include <array>
+#include <cstdlib>
+#include <string>
+
+#include "lib/text/error.h"
 
 namespace sg {
 namespace plain {
@@ -36,6 +40,18 @@ const Choice& choice() {
   return made;
 }
 
+const Kernels& chosen_kernels() {
+  const char* const wanted = std::getenv("SGTOOLS_KERNELS");
+  if (!wanted || *wanted == '\0') return *all_kernels().back();
+  std::string names;
+  for (const Kernels* there : all_kernels()) {
+    if (std::string_view(wanted) == there->name) return *there;
+    names += (names.empty() ? "" : ", ") + std::string(there->name);
+  }
+  throw usage_error("SGTOOLS_KERNELS: no kernels '" + std::string(wanted) +
+                    "' on this machine; there are: " + names);
+}
+
 }  // namespace
 
 std::span<const Kernels* const> all_kernels() {
@@ -43,7 +59,8 @@ std::span<const Kernels* const> all_kernels() {
 }
 
 const Kernels& kernels() {
-  return *all_kernels().back();
+  static const Kernels& chosen = chosen_kernels();
+  return chosen;
 }
 
 }  // namespace sg

@@ -22,12 +22,15 @@
 
 namespace sg {
 
-// A pivot this small, next to the largest diagonal entry that a single factor gave it, is rounding.
-constexpr double vanishing = 1e-14;
-
 constexpr int lane = 8;
 constexpr int round_up(int rows) {
   return (rows + lane - 1) / lane * lane;
+}
+
+// Where a square matrix of this leading dimension has its k-th diagonal entry: beyond int from 46341
+// rows on.
+constexpr std::int64_t diagonal_at(std::int64_t k, std::int64_t ld) {
+  return k * (ld + 1);
 }
 
 struct Front {
@@ -41,6 +44,7 @@ struct Front {
   int ld_u() const { return round_up(n - f); }
   std::int64_t size_l() const { return std::int64_t{f} * ld_l(); }
   std::int64_t size_u() const { return std::int64_t{n - f} * ld_u(); }
+  double& pivot(int k) const { return l[diagonal_at(k, ld_l())]; }  // of frontal scalar k
 };
 
 // Consecutive rows of a small symmetric matrix and of the front that it is added to.
@@ -50,9 +54,8 @@ struct Run {
   int length;
 };
 
-// The kernels are compiled for several instruction sets; the machine decides once which it uses.
-// Sums are taken in another order on another instruction set, but always in the same one on the
-// same machine.
+// The kernels are compiled for several instruction sets. Sums are taken in another order on another
+// instruction set, but always in the same one on the same.
 struct Kernels {
   const char* name;
 
@@ -67,14 +70,18 @@ struct Kernels {
   // triangle.
   void (*add)(const Front& front, const double* matrix, int ld, const Run* runs, int count);
 
-  // Partial Cholesky. A pivot that is not above its `floor` (f numbers) is dropped: its column
-  // becomes zero, as if the scalar were held. Returns how many were.
+  // Partial Cholesky. A pivot that is not above its `floor` (f numbers; pivots.h), or not finite, is
+  // dropped: its column becomes zero (NaN where it was that), as if the scalar were held. Returns
+  // how many were.
   int (*factorize)(const Front& front, const double* floor);
 
   // x has ld_l numbers: x_s in its place, -1 for the right-hand side, 0 elsewhere; fills in x_f.
   void (*back_substitute)(const Front& front, double* x);
 };
 
+// Those of this process, decided once: those that SGTOOLS_KERNELS names in the environment, without
+// it the last of all_kernels(). Throws a usage Error that lists the names for one that is none, or
+// that this machine cannot run.
 const Kernels& kernels();
 
 // All that this machine can run, the plainest first.

@@ -101,6 +101,9 @@ Isam2Report replay_step(Isam2Replay& replay, Index k) {
   }
   const Isam2Report report = update(replay.isam, variables, rows);
   if (!report.undetermined.empty()) throw_singular(replay, k);
+  if (!report.finite)
+    throw computation_error("step " + std::to_string(k) +
+                            ": the estimate has left the finite numbers");
   return report;
 }
 

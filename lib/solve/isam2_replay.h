@@ -29,9 +29,10 @@ struct Isam2Replay {
 // start_from_file needs a file with estimates; throws an input Error otherwise.
 Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& options, int min_obs,
                               bool start_from_file);
+Isam2Replay make_isam2_replay(const Problem&&, const Isam2Options&, int, bool) = delete;
 
 // Step k, after 0 .. k - 1. Throws a computation Error that names the step and the undetermined
-// vertices if it cannot be solved.
+// vertices if it cannot be solved, and those of check_row (linearize.h).
 Isam2Report replay_step(Isam2Replay& replay, Index k);
 
 }  // namespace sg

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -68,6 +69,7 @@ double ray_damping(double distance) {
 void move_landmark(const Problem& problem, Index v, std::span<const Index> edges,
                    std::span<const double> step, Values& estimate, double* point) {
   const std::size_t dim = step.size();
+  assert(dim <= std::tuple_size_v<Point>);
   std::vector<Ray> rays;
   for (Index e : edges) {
     if (sees_along_ray(problem, e)) rays.push_back(ray_of(problem, e, estimate));

@@ -32,9 +32,6 @@ std::span<const Backend> backends();
 const Backend& find_backend(std::string_view name);
 std::string backend_names();  // "a, b"
 
-// A pivot below this share of its diagonal entry is rounding: the system is singular.
-constexpr double singular_pivot = 1e-13;
-
 // Supernodal Cholesky by CHOLMOD (Chen, Davis, Hager, Rajamanickam 2008) on the normal equations in this order.
 LinearSolver cholmod_solver(const LinearSystem& system, const Order& order, int threads);
 

@@ -1,6 +1,7 @@
 #include "lib/solve/normal_equations.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace sg {
@@ -25,7 +26,7 @@ void append_columns(const std::vector<Index>& earlier, Index j, NormalEquations&
       for (int a = 0; a < normal.dim[i]; ++a) normal.rows.push_back(normal.scalar_at[i] + a);
     }
     for (int a = 0; a <= b; ++a) normal.rows.push_back(normal.scalar_at[j] + a);
-    normal.column_begin.push_back(static_cast<int>(normal.rows.size()));
+    normal.column_begin.push_back(item_count(normal.rows.size()));
   }
 }
 
@@ -83,6 +84,7 @@ void add_row(const LinearSystem& system, Index r, NormalEquations& normal) {
 
 NormalEquations normal_structure(const LinearSystem& system, const Order& order) {
   const Pattern& pattern = *system.pattern;
+  assert(is_permutation(order, pattern.variables()) && is_laid_out(system));
   NormalEquations normal;
   normal.dim = pattern.dim;
   normal.step_at = starts(pattern.dim);
@@ -124,6 +126,8 @@ NormalEquations normal_structure(const LinearSystem& system, const Order& order)
 
 void form_normal_equations(const LinearSystem& system, std::span<const double> damping,
                            NormalEquations& normal) {
+  assert(is_laid_out(system) && system.pattern->dim == normal.dim);
+  assert(damping.empty() || damping.size() == normal.gradient.size());
   std::ranges::fill(normal.numbers, 0.0);
   std::ranges::fill(normal.gradient, 0.0);
   for (Index r = 0; r < system.pattern->rows.size(); ++r) add_row(system, r, normal);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,7 @@ class Pool {
 
   // Where a block of `size` items begins; `size` is at least 1.
   std::int64_t take(std::int64_t size) {
+    assert(size > 0);
     std::vector<std::int64_t>& free = free_of(size);
     if (!free.empty()) {
       const std::int64_t begin = free.back();

@@ -11,13 +11,13 @@ void take_patterns(const Isam2& isam, Snapshot& snapshot, std::vector<Index>& ro
   pattern.dim.clear();
   pattern.rows.clear();
   for (Index j = 0; j < whole.variables(); ++j) {
-    if (isam.clique[j] < 0) continue;
+    if (isam.tree.variable_clique[j] < 0) continue;
     number[j] = static_cast<Index>(snapshot.variable.size());
     snapshot.variable.push_back(j);
     pattern.dim.push_back(whole.dim[j]);
   }
   for (Index r = 0; r < whole.rows.size(); ++r) {
-    if (isam.row_clique[r] < 0) continue;
+    if (isam.tree.row_clique[r] < 0) continue;
     if (r == isam.problem->graph->edges()) snapshot.anchored = pattern;
     Pattern& target = r == isam.problem->graph->edges() ? snapshot.anchored : pattern;
     for (Index j : whole.rows[r]) target.rows.items.push_back(number[j]);
@@ -39,16 +39,13 @@ void take_snapshot(const Isam2& isam, bool numbers, Snapshot& snapshot) {
   system.height.clear();
   system.begin.assign(1, 0);
   for (Index r : row) {
-    const bool gauge = r == problem.graph->edges();
-    system.height.push_back(gauge ? problem.variables.pattern.dim[problem.held]
-                                  : problem.model[r]->dim);
-    int width = 1;
-    for (Index j : problem.variables.pattern.rows[r]) width += problem.variables.pattern.dim[j];
-    system.begin.push_back(system.begin.back() + system.height.back() * width);
+    system.height.push_back(block_rows(problem, r));
+    system.begin.push_back(system.begin.back() +
+                           system.height.back() * block_columns(problem.variables.pattern, r));
   }
   system.numbers.resize(system.begin.back());
-  for (std::size_t k = 0; k < row.size(); ++k)
-    linearize_row(problem, isam.linearized, {}, row[k], system.block(static_cast<Index>(k)));
+  for (Index k = 0; k < static_cast<Index>(row.size()); ++k)
+    linearize_row(problem, isam.linearized, {}, row[k], system.block(k));
 }
 
 }  // namespace sg

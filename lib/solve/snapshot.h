@@ -8,15 +8,19 @@
 
 namespace sg {
 
+// Its system points to its pattern: it stays where it is.
 struct Snapshot {
+  Snapshot() = default;
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+
   std::vector<Index> variable;  // of the problem, ascending
   Pattern pattern;              // of the edges, as a score has it
   Pattern anchored;             // with the gauge's row, if there is one, at the end
   LinearSystem system;          // of `anchored`, at the linearization points
 };
 
-// Overwrites `snapshot`, whose address must not change as long as its system is used. numbers: whether
-// the system is wanted, too.
+// Overwrites `snapshot`. numbers: whether the system is wanted, too.
 void take_snapshot(const Isam2& isam, bool numbers, Snapshot& snapshot);
 
 }  // namespace sg

@@ -1,6 +1,7 @@
 #include "lib/solve/undetermined.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <random>
 
@@ -44,6 +45,7 @@ std::vector<double> movements(const NormalEquations& normal, const double* x) {
 }  // namespace
 
 std::vector<Index> undetermined_variables(const LinearSystem& system, const Order& order) {
+  assert(!order.empty());
   NormalEquations normal = normal_structure(system, order);
   form_normal_equations(system, {}, normal);
   scale_to_unit_diagonal(normal);

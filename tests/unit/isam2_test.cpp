@@ -67,9 +67,9 @@ std::string random_walk(Random& random, int poses, bool vertices) {
 
 // Cliques that are in the tree.
 std::vector<sg::Index> alive(const sg::Isam2& isam) {
-  const std::set<sg::Index> free(isam.free_cliques.begin(), isam.free_cliques.end());
+  const std::set<sg::Index> free(isam.tree.free.begin(), isam.tree.free.end());
   std::vector<sg::Index> cliques;
-  for (sg::Index c = 0; c < static_cast<sg::Index>(isam.cliques.size()); ++c) {
+  for (sg::Index c = 0; c < static_cast<sg::Index>(isam.tree.cliques.size()); ++c) {
     if (!free.contains(c)) cliques.push_back(c);
   }
   return cliques;
@@ -82,23 +82,23 @@ void check_tree(const sg::Isam2& isam) {
   sg::Wide ec_bt = 0;
   sg::Index cliques = 0;
   for (sg::Index c : alive(isam)) {
-    const sg::Isam2Clique& clique = isam.cliques[c];
-    const sg::Index* list = isam.lists.data() + clique.lists;
+    const sg::Isam2Clique& clique = isam.tree.cliques[c];
+    const sg::Index* list = isam.tree.lists.data() + clique.lists;
     const std::set<sg::Index> members(list, list + clique.frontals + clique.separators);
     for (sg::Index k = 0; k < clique.frontals; ++k) {
       CHECK(variables.insert(list[k]).second);
-      CHECK(isam.clique[list[k]] == c);
+      CHECK(isam.tree.variable_clique[list[k]] == c);
     }
     for (sg::Index k = 0; k < clique.rows; ++k) {
       const sg::Index r = list[clique.frontals + clique.separators + k];
       CHECK(rows.insert(r).second);
-      CHECK(isam.row_clique[r] == c);
+      CHECK(isam.tree.row_clique[r] == c);
       for (sg::Index j : isam.problem->variables.pattern.rows[r]) CHECK(members.contains(j));
     }
     CHECK((clique.parent < 0) == (clique.separators == 0));
     if (clique.parent >= 0) {
-      const sg::Isam2Clique& parent = isam.cliques[clique.parent];
-      const sg::Index* up = isam.lists.data() + parent.lists;
+      const sg::Isam2Clique& parent = isam.tree.cliques[clique.parent];
+      const sg::Index* up = isam.tree.lists.data() + parent.lists;
       const std::set<sg::Index> above(up, up + parent.frontals + parent.separators);
       for (sg::Index k = 0; k < clique.separators; ++k)
         CHECK(above.contains(list[clique.frontals + k]));
@@ -108,8 +108,8 @@ void check_tree(const sg::Isam2& isam) {
   }
   CHECK(static_cast<sg::Index>(variables.size()) == isam.variables);
   CHECK(static_cast<sg::Index>(rows.size()) == isam.rows);
-  CHECK(ec_bt == isam.ec_bt);
-  CHECK(cliques == isam.clique_count);
+  CHECK(ec_bt == isam.tree.ec_bt);
+  CHECK(cliques == isam.tree.count);
 }
 
 // Largest difference between the smoother's step and the one that batch elimination of the same

@@ -65,6 +65,39 @@ chain() {
   [ ! -e end.g2o ]
 }
 
+@test "an edge without a derivative ends the replay by its line, and nothing is written" {
+  printf '%s\n' 'VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1' 'VERTEX_SE3:QUAT 1 0 0 1 0 0 0 1' 'VERTEX_TRACKXYZ 2 0 0 0' \
+    'PARAMS_CAMERACALIB 0 0 0 0 0 0 0 1 500 500 320 240' \
+    'EDGE_SE3:QUAT 0 1 0 0 1 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1' \
+    'EDGE_PROJECT_DISPARITY 1 2 0 320 240 1 1 0 0 1 0 1' \
+    'EDGE_PROJECT_DISPARITY 0 2 0 320 240 1 1 0 0 1 0 1' > zero.g2o
+  fails 3 "sg-isam2: zero.g2o:7: EDGE_PROJECT_DISPARITY has no derivative at this estimate" \
+    sg-isam2 --init file -o end.g2o zero.g2o
+  [ ! -e end.g2o ]
+  fails 3 "sg-solve: zero.g2o:7: EDGE_PROJECT_DISPARITY has no derivative at this estimate" sg-solve -o end.g2o zero.g2o
+  [ ! -e end.g2o ]
+  fails 3 "sg-solve: zero.g2o:7: EDGE_PROJECT_DISPARITY has no derivative at this estimate" sg-solve --time 1 zero.g2o
+}
+
+@test "a landmark at the origin in a camera's plane is told, by whatever camera, and no NaN is printed" {
+  printf '%s\n' 'VERTEX_SE3:EXPMAP 0 0 0 1 0 0 0 1' 'VERTEX_SE3:EXPMAP 1 1 0 0 0 0 0 1' 'VERTEX_XYZ 2 0 0 0' \
+    'PARAMS_CAMERAPARAMETERS 0 500 320 240 0' 'FIX 0' \
+    'EDGE_SE3:EXPMAP 0 1 1 0 -1 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1' \
+    'EDGE_PROJECT_XYZ2UV:EXPMAP 2 0 0 320 240 1 0 1' 'EDGE_PROJECT_XYZ2UV:EXPMAP 2 1 0 400 240 1 0 1' > plane.g2o
+  fails 3 "sg-isam2: plane.g2o:8: EDGE_PROJECT_XYZ2UV:EXPMAP has no derivative at this estimate" \
+    sg-isam2 --init file -f step,chi2 plane.g2o
+  [ "$(sg-isam2 --init file -f step,chi2 --no-header plane.g2o 2> /dev/null)" = "$(printf '0\t0')" ]
+}
+
+@test "information too large to be summed up ends both solvers by its line" {
+  { chain 2; echo "EDGE_SE2 1 2 1 0 0 1e308 0 0 1e308 0 1e308"; } > huge.g2o
+  local why="huge.g2o:2: EDGE_SE2 weighs too much to calculate with: its information or its error is too large"
+  fails 3 "sg-isam2: $why" sg-isam2 -o end.g2o huge.g2o
+  fails 3 "sg-solve: $why" sg-solve -o end.g2o huge.g2o
+  fails 3 "sg-solve: $why" sg-solve --backend cholmod -o end.g2o huge.g2o
+  [ ! -e end.g2o ]
+}
+
 @test "a landmark seen by bearings enters with its second and stands where they meet" {
   { echo "VERTEX_SE2 0 0 0 0"; echo "VERTEX_SE2 1 1 0 0"; echo "VERTEX_XY 2 1 1"
     echo "EDGE_SE2 0 1 1 0 0 100 0 0 100 0 100"
