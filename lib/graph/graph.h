@@ -72,6 +72,7 @@ std::optional<Index> find_vertex(const Graph& graph, Id id);
 // The line (without its end) whose content starts at `line`, and its 1-based number. The number
 // costs a count of the text before it: for messages.
 std::string_view line_at(const Graph& graph, Offset line);
+std::string_view line_at(const Graph&& graph, Offset line) = delete;  // it points into the text
 std::size_t line_number(const Graph& graph, Offset line);
 
 // An input Error at that line of the graph's file.
