@@ -86,6 +86,7 @@ chain() {
     'EDGE_PROJECT_XYZ2UV:EXPMAP 2 0 0 320 240 1 0 1' 'EDGE_PROJECT_XYZ2UV:EXPMAP 2 1 0 400 240 1 0 1' > plane.g2o
   fails 3 "sg-isam2: plane.g2o:8: EDGE_PROJECT_XYZ2UV:EXPMAP has no derivative at this estimate" \
     sg-isam2 --init file -f step,chi2 plane.g2o
+  fails 3 "sg-solve: plane.g2o:8: EDGE_PROJECT_XYZ2UV:EXPMAP has no finite error at this estimate" sg-solve --chi2 plane.g2o
   [ "$(sg-isam2 --init file -f step,chi2 --no-header plane.g2o 2> /dev/null)" = "$(printf '0\t0')" ]
 }
 
