@@ -283,5 +283,5 @@ TEST_CASE("what is unknown stays unknown in a parallel sum", "[geometry]") {
   const Matrix3d a = Vector3d(4, 0, 3).asDiagonal();
   const Matrix3d b = Vector3d(4, 0, 0).asDiagonal();
   const Matrix3d expected = Vector3d(2, 0, 0).asDiagonal();
-  CHECK((parallel_sum<3>(a, b) - expected).norm() < 1e-12);
+  CHECK((parallel_sum(a, b) - expected).norm() < 1e-12);
 }
