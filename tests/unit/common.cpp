@@ -1,8 +1,8 @@
 #include "tests/unit/common.h"
 
 #include <algorithm>
+#include <boost/random/uniform_01.hpp>
 #include <boost/random/uniform_int_distribution.hpp>
-#include <boost/random/uniform_real_distribution.hpp>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <numeric>
@@ -16,7 +16,7 @@ int draw(Random& random, int least, int most) {
 }
 
 double uniform(Random& random, double least, double limit) {
-  return boost::random::uniform_real_distribution<double>(least, limit)(random);
+  return least + (limit - least) * boost::random::uniform_01<double>()(random);
 }
 
 Order shuffled(Random& random, Index n) {

@@ -15,8 +15,9 @@ namespace sg::test {
 
 using Random = boost::random::mt19937;
 
-int draw(Random& random, int least, int most);               // in [least, most]
-double uniform(Random& random, double least, double limit);  // in [least, limit)
+int draw(Random& random, int least, int most);  // in [least, most]
+// In [least, limit); least where both are equal.
+double uniform(Random& random, double least, double limit);
 Order shuffled(Random& random, Index n);
 
 template <class T>
