@@ -195,6 +195,7 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
   [ "$(wc -l <<<"$tags")" -gt 60 ]
   run -1 sg-check <(cat <<<"$tags")
   [[ $output != *'unknown tag'* ]]
-  registered=$(grep -oE '(EdgeRow|VertexRow)\{"[^"]+' "$TESTDATA/../lib/graph/tags.cpp" | cut -d'"' -f2 | sort -u)
+  registered=$(grep -E '(EdgeRow|VertexRow|ParamRow)\{' "$TESTDATA/../lib/graph/types.h" | grep -oE '"[A-Z][^"]+"' | tr -d '"' | sort -u)
+  [ "$(wc -l <<<"$registered")" -gt 60 ]
   [ -z "$(comm -23 <(echo "$registered") <(echo "$tags"))" ]
 }
