@@ -27,9 +27,9 @@ void append_planar(std::string_view rest, std::string& out) {
 
 Losses tum_losses(const Graph& graph) {
   Losses losses;
-  add_vertex_losses(losses, graph, holds);
-  for (Loss& loss : losses) {
-    loss.structure = graph.tags.vertices[graph.tags.find(loss.what)->type].role == Role::pose;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const VertexType& type = graph.type_of_vertex(v);
+    if (!holds(graph, v)) add_loss(losses, graph.vertex_line[v], type.tag, type.role == Role::pose);
   }
   return losses;
 }
