@@ -1,5 +1,5 @@
-// The sites that tests/mutants/run broke, all compiled at once: site k is as written unless SGTOOLS_MUTANT=k. Included
-// ahead of every source by the compiler's command line.
+// The places that tests/mutants/run broke, all compiled at once: place k is as written unless SGTOOLS_MUTANT=k. Each file
+// with such a place begins by including this.
 //
 // `a < b` becomes `a < sgm::lt{k} < b`: the tag takes `a`, then `b`, at the operator's own precedence, so that no operand
 // has to be found in the text.
