@@ -29,6 +29,12 @@ constexpr int space_size(Space space) {
   return std::array{3, 7, 7, 2, 3}[static_cast<int>(space)];
 }
 
+// Whether a scalar of a step turns, in radians or halves of them; the others move, in metres.
+constexpr bool is_turn(Space space, int scalar) {
+  if (space == Space::expmap) return scalar < 3;
+  return (space == Space::se2 && scalar == 2) || (space == Space::se3 && scalar >= 3);
+}
+
 // Of a vertex tag; nothing for a vertex that no measurement model knows.
 std::optional<Space> find_space(std::string_view vertex_tag);
 std::string_view name(Space space);

@@ -43,7 +43,7 @@ std::string failure_of_all(const std::string& text) {
     const std::string batch = failure([&] {
       sg::LinearSystem system = sg::make_linear_system(problem);
       sg::Values values = sg::start_values(problem);
-      sg::optimize(problem, order, system, backend.make(system, order, 1), {}, values);
+      sg::optimize(problem, system, backend.make(system, order, 1), {}, values);
     });
     CHECK(batch == incremental);
   }
