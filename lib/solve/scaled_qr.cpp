@@ -1,5 +1,6 @@
 #include "lib/solve/scaled_qr.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -44,6 +45,7 @@ ScaledQr scaled_qr(const LinearSystem& system, std::span<const double> damping) 
     if (damping[k] > 0)
       A.add(A.rows++, static_cast<Index>(k), std::sqrt(damping[k]) / result.length[k]);
   }
+  A.rows = std::max<std::int64_t>(A.rows, 1);  // SPQR wants one
   b.resize(A.rows, 0.0);
   result.qr = qr(A, b, dependent);
   return result;

@@ -27,7 +27,7 @@ std::vector<Index> parts(const Pattern& pattern) {
   };
   for (Index r = 0; r < pattern.rows.size(); ++r) {
     for (Index j : pattern.rows[r]) {
-      const auto [first, second] = std::minmax(root(j), root(pattern.rows[r].front()));
+      const auto [first, second] = std::minmax({root(j), root(pattern.rows[r].front())});
       part[second] = first;
     }
   }

@@ -81,6 +81,7 @@ void set_pivots(Qr& result) {
 
 Qr qr(Entries& A, std::vector<double>& b, double tolerance) {
   assert(static_cast<std::int64_t>(b.size()) == A.rows);
+  if (A.columns == 0) return {{}, {0}, {}, {}, {}, {}, 0};
   Session session;
   const Sparse matrix = compressed(A, session);
   cholmod_dense right = view(b);
