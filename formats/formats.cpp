@@ -45,6 +45,7 @@ Graph read_graph_text(Text text, const std::string& file, const ReadOptions& opt
   Tags tags = builtin_tags();
   for (const auto& spec : options.vertex_types) teach_vertex(tags, spec);
   for (const auto& spec : options.edge_types) teach_edge(tags, spec);
+  for (const auto& tag : options.param_tags) teach_params(tags, tag);
   const ReadFormat& format = find_format(options, text.view);
   if (format.to_g2o) text = text_of(format.to_g2o(text.view, file, complaint));
   return parse_g2o(std::move(text), file, std::move(tags), complaint);

@@ -26,6 +26,7 @@ struct ReadOptions {
   std::string format;                     // a name of the table; empty: told by content
   std::vector<std::string> vertex_types;  // --vertex TAG:DIM:ROLE
   std::vector<std::string> edge_types;    // --edge TAG:ARITY
+  std::vector<std::string> param_tags;    // --params TAG
   Complaint complaint;                    // empty: throw the first
 };
 

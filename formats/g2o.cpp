@@ -98,8 +98,7 @@ void parse_vertex(Parser& parser, TypeIndex type_index, Offset at, std::string_v
 // The ids of an edge line, onto parser.edge_ids; returns how many numbers have to follow.
 std::int64_t parse_edge_ids(Parser& parser, const EdgeType& type, std::string_view& rest) {
   if (!type.counted) {
-    for (std::size_t k = 0; k < type.endpoints.size(); ++k)
-      parser.edge_ids.push_back(read_id(rest, "a vertex id"));
+    for (int k = 0; k < type.arity; ++k) parser.edge_ids.push_back(read_id(rest, "a vertex id"));
     return type.numbers;
   }
   parser.edge_ids.push_back(read_id(rest, "a vertex id"));
@@ -116,7 +115,7 @@ void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_vie
   const std::size_t first = parser.edge_ids.small.size();
   try {
     const std::int64_t numbers = parse_edge_ids(parser, type, rest);
-    for (int k = 0; k < type.params; ++k) read_id(rest, "a parameter id");
+    for (int k = 0; k < type.params.size; ++k) read_id(rest, "a parameter id");
     check_numbers(rest, numbers, type.tag);
   } catch (const BadLine&) {
     parser.edge_ids.small.resize(first);
@@ -128,10 +127,11 @@ void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_vie
   graph.edge_begin.push_back(static_cast<Index>(parser.edge_ids.small.size()));
 }
 
-void parse_param(Parser& parser, Offset at, std::string_view tag, std::string_view rest) {
+void parse_param(Parser& parser, ParamTag type, Offset at, std::string_view tag,
+                 std::string_view rest) {
   const Id id = read_id(rest, "a parameter id");
   check_numbers(rest, 0, tag);
-  parser.graph.params.push_back({id, at});
+  parser.graph.params.push_back({id, type, at});
 }
 
 void parse_fix(Parser& parser, Offset at, std::string_view rest) {
@@ -161,7 +161,8 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
     parser.last_tag = tag;
   }
   if (!parser.last_meaning)
-    throw BadLine{"unknown tag " + quoted(tag) + " (--vertex and --edge teach a new one)"};
+    throw BadLine{"unknown tag " + quoted(tag) +
+                  " (--vertex, --edge and --params teach a new one)"};
   const TypeIndex type = parser.last_meaning->type;
   switch (parser.last_meaning->kind) {
     case LineKind::vertex:
@@ -171,7 +172,7 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
     case LineKind::fix:
       return parse_fix(parser, at, rest);
     case LineKind::param:
-      return parse_param(parser, at, tag, rest);
+      return parse_param(parser, ParamTag{type}, at, tag, rest);
     case LineKind::data:
       return;
   }
@@ -276,16 +277,14 @@ void imply_vertices(Parser& parser) {
   mentions.reserve(parser.edge_ids.small.size());
   for (Index e = 0; e < graph.edges(); ++e) {
     const EdgeType& type = graph.type_of_edge(e);
-    const bool known = !type.endpoints.empty() && !type.endpoints[0].empty();
-    if (!known) {
+    if (type.ends.size == 0) {
       throw error_at(
           graph, graph.edge_line[e],
           type.tag + " does not say what its vertices are, and the file has no VERTEX lines");
     }
     for (Index k = graph.edge_begin[e]; k < graph.edge_begin[e + 1]; ++k) {
-      const std::size_t place =
-          std::min<std::size_t>(k - graph.edge_begin[e], type.endpoints.size() - 1);
-      mentions.push_back({parser.edge_ids[k], graph.tags.vertex_type(type.endpoints[place]), e});
+      const VertexTag end = type.ends[std::min(k - graph.edge_begin[e], type.ends.size - 1)];
+      mentions.push_back({parser.edge_ids[k], static_cast<TypeIndex>(end), e});
     }
   }
   std::stable_sort(mentions.begin(), mentions.end(),

@@ -43,14 +43,14 @@ Eigen::Matrix<double, N, N> read_information(std::string_view& rest) {
 }
 
 void translate_odometry(std::string_view rest, std::string& out) {
-  out += "EDGE_SE2";
+  out += name(EdgeTag::se2);
   for (int k = 0; k < 2; ++k) append_number(out, read_id(rest, "a pose id"));
   copy_numbers(rest, 3, out);
   append_triangle<3>(out, read_information<3>(rest));
 }
 
 void translate_edge3(std::string_view rest, std::string& out) {
-  out += "EDGE_SE3:QUAT";
+  out += name(EdgeTag::se3);
   for (int k = 0; k < 2; ++k) append_number(out, read_id(rest, "a pose id"));
   translate_euler_pose(rest, out);
   append_triangle<6>(out, to_quaternion_information(read_information<6>(rest)));
@@ -66,7 +66,7 @@ void append_landmark_id(std::string& out, std::string_view& rest, Id after) {
 }
 
 void translate_landmark(std::string_view rest, Id after, std::string& out) {
-  out += "EDGE_SE2_XY";
+  out += name(EdgeTag::se2_xy);
   append_number(out, read_id(rest, "a pose id"));
   append_landmark_id(out, rest, after);
   copy_numbers(rest, 2, out);
@@ -74,7 +74,7 @@ void translate_landmark(std::string_view rest, Id after, std::string& out) {
 }
 
 void translate_point3(std::string_view rest, Id after, std::string& out) {
-  out += "EDGE_SE3_TRACKXYZ";
+  out += name(EdgeTag::se3_trackxyz);
   append_number(out, read_id(rest, "a pose id"));
   append_landmark_id(out, rest, after);
   out += " 0";  // the sensor's offset: the identity that is appended at the end
@@ -89,16 +89,15 @@ bool identity_offset(const Graph& graph, Id id) {
   for (const Param& param : graph.params) {
     if (param.id != id) continue;
     param_numbers(graph, param, numbers);
-    return line_at(graph, param.line).find("PARAMS_SE3OFFSET") != std::string_view::npos &&
-           numbers == identity;
+    return param.type == ParamTag::se3_offset && numbers == identity;
   }
   return false;
 }
 
 bool holds_edge(const Graph& graph, Index e) {
-  const std::string_view tag = graph.type_of_edge(e).tag;
-  if (tag == "EDGE_SE3_TRACKXYZ") return identity_offset(graph, edge_params(graph, e).front());
-  return tag == "EDGE_SE2" || tag == "EDGE_SE3:QUAT" || tag == "EDGE_SE2_XY";
+  const EdgeTag type = graph.edge_tag(e);
+  if (type == EdgeTag::se3_trackxyz) return identity_offset(graph, edge_params(graph, e).front());
+  return type == EdgeTag::se2 || type == EdgeTag::se3 || type == EdgeTag::se2_xy;
 }
 
 // Whether an edge that iSAM can hold joins the vertex.
@@ -125,18 +124,19 @@ Eigen::Matrix<double, N, N> square_root(const Eigen::Matrix<double, N, N>& infor
 
 void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out) {
   auto rest = line_at(graph, graph.edge_line[e]);
-  const auto tag = next_word(rest);
-  const bool point = tag == "EDGE_SE3_TRACKXYZ";
-  const bool landmark = point || tag == "EDGE_SE2_XY";
-  out = point ? "POINT3" : landmark ? "LANDMARK" : tag == "EDGE_SE2" ? "ODOMETRY" : "EDGE3";
+  next_word(rest);
+  const EdgeTag type = graph.edge_tag(e);
+  const bool point = type == EdgeTag::se3_trackxyz;
+  const bool landmark = point || type == EdgeTag::se2_xy;
+  out = point ? "POINT3" : landmark ? "LANDMARK" : type == EdgeTag::se2 ? "ODOMETRY" : "EDGE3";
   append_number(out, read_id(rest, "a pose id"));
   append_number(out, read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
-  if (tag == "EDGE_SE3:QUAT") {
+  if (type == EdgeTag::se3) {
     translate_quaternion_pose(rest, out);
     return append_triangle<6>(out, square_root<6>(to_euler_information(read_symmetric<6>(rest))));
   }
   if (point) read_id(rest, "a parameter id");
-  const int numbers = tag == "EDGE_SE2_XY" ? 2 : 3;
+  const int numbers = type == EdgeTag::se2_xy ? 2 : 3;
   copy_numbers(rest, numbers, out);
   if (numbers == 2) return append_triangle<2>(out, square_root<2>(read_symmetric<2>(rest)));
   append_triangle<3>(out, square_root<3>(read_symmetric<3>(rest)));
@@ -183,7 +183,7 @@ std::string isam_to_g2o(std::string_view text, const std::string& file,
     translate_point3(rest, after, out);
   };
   std::string g2o = translate_lines(text, file, complaint, translate);
-  if (offset_needed) g2o += "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n";
+  if (offset_needed) g2o.append(name(ParamTag::se3_offset)).append(" 0 0 0 0 0 0 0 1\n");
   return g2o;
 }
 
@@ -195,7 +195,7 @@ Losses isam_losses(const Graph& graph) {
     if (!used[v]) add_loss(losses, graph.vertex_line[v], "a vertex without an edge", true);
     if (graph.vertex_line[v] != implied) add_loss(losses, graph.vertex_line[v], "estimates", false);
   }
-  for (Offset line : graph.fix_lines) add_loss(losses, line, "FIX", false);
+  for (Offset line : graph.fix_lines) add_loss(losses, line, fix_tag, false);
   return losses;
 }
 

@@ -13,31 +13,31 @@ void append_ids(std::string& out, std::string_view& rest, int count) {
 }
 
 void translate_vertex2(std::string_view rest, std::string& out) {
-  out += "VERTEX_SE2";
+  out += name(VertexTag::se2);
   append_ids(out, rest, 1);
   copy_numbers(rest, 3, out);
   expect_end(rest);
 }
 
 void translate_edge2(std::string_view rest, std::string& out) {
-  out += "EDGE_SE2";
+  out += name(EdgeTag::se2);
   append_ids(out, rest, 2);
   copy_numbers(rest, 3, out);
-  std::array<std::string_view, 6> w;  // 11 12 22 33 13 23
-  for (auto& word : w) word = read_number_text(rest);
+  std::array<std::string_view, 6> w;  // row by row
+  for (const int k : toro_triangle) w[k] = read_number_text(rest);
   expect_end(rest);
-  for (const int k : {0, 1, 4, 2, 5, 3}) append_word(out, w[k]);
+  for (const auto word : w) append_word(out, word);
 }
 
 void translate_vertex3(std::string_view rest, std::string& out) {
-  out += "VERTEX_SE3:QUAT";
+  out += name(VertexTag::se3);
   append_ids(out, rest, 1);
   translate_euler_pose(rest, out);
   expect_end(rest);
 }
 
 void translate_edge3(std::string_view rest, std::string& out) {
-  out += "EDGE_SE3:QUAT";
+  out += name(EdgeTag::se3);
   append_ids(out, rest, 2);
   translate_euler_pose(rest, out);
   const Matrix6d information = read_symmetric<6>(rest);
@@ -46,13 +46,15 @@ void translate_edge3(std::string_view rest, std::string& out) {
 }
 
 bool holds_vertex(const Graph& graph, Index v) {
-  const std::string_view tag = graph.type_of_vertex(v).tag;
-  return tag == "VERTEX_SE2" || tag == "VERTEX_SE3:QUAT" || tag == "VERTEX2" || tag == "VERTEX3";
+  const VertexTag type = graph.vertex_tag(v);
+  return type == VertexTag::se2 || type == VertexTag::se3 || type == VertexTag::toro2 ||
+         type == VertexTag::toro3;
 }
 
 bool holds_edge(const Graph& graph, Index e) {
-  const std::string_view tag = graph.type_of_edge(e).tag;
-  return tag == "EDGE_SE2" || tag == "EDGE_SE3:QUAT" || tag == "EDGE2" || tag == "EDGE3";
+  const EdgeTag type = graph.edge_tag(e);
+  return type == EdgeTag::se2 || type == EdgeTag::se3 || type == EdgeTag::toro2 ||
+         type == EdgeTag::toro3;
 }
 
 void write_se2(std::string_view rest, std::string& out) {
@@ -65,9 +67,9 @@ void write_edge_se2(std::string_view rest, std::string& out) {
   out = "EDGE2";
   append_ids(out, rest, 2);
   copy_numbers(rest, 3, out);
-  std::array<std::string_view, 6> w;  // 11 12 13 22 23 33
+  std::array<std::string_view, 6> w;  // row by row
   for (auto& word : w) word = read_number_text(rest);
-  for (const int k : {0, 1, 3, 5, 2, 4}) append_word(out, w[k]);
+  for (const int k : toro_triangle) append_word(out, w[k]);
 }
 
 void write_se3(std::string_view rest, std::string& out) {
@@ -81,6 +83,18 @@ void write_edge_se3(std::string_view rest, std::string& out) {
   append_ids(out, rest, 2);
   translate_quaternion_pose(rest, out);
   append_triangle<6>(out, to_euler_information(read_symmetric<6>(rest)));
+}
+
+void write_vertex(VertexTag type, std::string_view line, std::string_view rest, std::string& out) {
+  if (type == VertexTag::se2) return write_se2(rest, out);
+  if (type == VertexTag::se3) return write_se3(rest, out);
+  if (type == VertexTag::toro2 || type == VertexTag::toro3) out = line;
+}
+
+void write_edge(EdgeTag type, std::string_view line, std::string_view rest, std::string& out) {
+  if (type == EdgeTag::se2) return write_edge_se2(rest, out);
+  if (type == EdgeTag::se3) return write_edge_se3(rest, out);
+  if (type == EdgeTag::toro2 || type == EdgeTag::toro3) out = line;
 }
 
 }  // namespace
@@ -111,19 +125,20 @@ Losses toro_losses(const Graph& graph) {
   Losses losses;
   add_edge_losses(losses, graph, holds_edge);
   add_vertex_losses(losses, graph, holds_vertex);
-  for (Offset line : graph.fix_lines) add_loss(losses, line, "FIX", false);
+  for (Offset line : graph.fix_lines) add_loss(losses, line, fix_tag, false);
   return losses;
 }
 
 void write_toro(const Graph& graph, const WriteOptions&, Sink& sink) {
-  const auto translate = [](std::string_view line, std::string& out) {
+  const auto translate = [&graph](std::string_view line, std::string& out) {
     auto rest = line;
-    const auto tag = next_word(rest);
-    if (tag == "VERTEX_SE2") return write_se2(rest, out);
-    if (tag == "VERTEX_SE3:QUAT") return write_se3(rest, out);
-    if (tag == "EDGE_SE2") return write_edge_se2(rest, out);
-    if (tag == "EDGE_SE3:QUAT") return write_edge_se3(rest, out);
-    if (tag == "VERTEX2" || tag == "VERTEX3" || tag == "EDGE2" || tag == "EDGE3") out = line;
+    const TagMeaning* meaning = graph.tags.find(next_word(rest));
+    if (!meaning) return;
+    if (meaning->kind == LineKind::vertex) {
+      write_vertex(VertexTag{meaning->type}, line, rest, out);
+    } else if (meaning->kind == LineKind::edge) {
+      write_edge(EdgeTag{meaning->type}, line, rest, out);
+    }
   };
   write_lines(graph, translate, sink);
 }

@@ -44,7 +44,7 @@ void scan_tags(std::string_view text, const std::function<bool(std::string_view 
   while (!text.empty()) {
     auto line = next_line(text);
     const auto tag = next_word(line);
-    const bool skip = tag.empty() || tag.front() == '#' || tag == "FIX";
+    const bool skip = tag.empty() || tag.front() == '#' || tag == fix_tag;
     if (!skip && look(tag)) return;
   }
 }

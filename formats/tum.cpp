@@ -10,18 +10,9 @@
 namespace sg {
 namespace {
 
-bool planar(std::string_view tag) {
-  return tag == "VERTEX_SE2" || tag == "VERTEX2";
-}
-
-// Tags whose first seven numbers are x y z qx qy qz qw.
-bool spatial(std::string_view tag) {
-  return tag == "VERTEX_SE3:QUAT" || tag == "VERTEX_SE3:EXPMAP" || tag == "VERTEX_CAM";
-}
-
 bool holds(const Graph& graph, Index v) {
-  const std::string_view tag = graph.type_of_vertex(v).tag;
-  return planar(tag) || spatial(tag) || tag == "VERTEX3";
+  const Space space = graph.type_of_vertex(v).space;
+  return space == Space::se2 || space == Space::euler || has_quaternion(space);
 }
 
 void append_planar(std::string_view rest, std::string& out) {
@@ -36,9 +27,9 @@ void append_planar(std::string_view rest, std::string& out) {
 
 Losses tum_losses(const Graph& graph) {
   Losses losses;
-  add_vertex_losses(losses, graph, holds);
-  for (Loss& loss : losses) {
-    loss.structure = graph.tags.vertices[graph.tags.vertex_type(loss.what)].role == Role::pose;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const VertexType& type = graph.type_of_vertex(v);
+    if (!holds(graph, v)) add_loss(losses, graph.vertex_line[v], type.tag, type.role == Role::pose);
   }
   return losses;
 }
@@ -48,11 +39,12 @@ void write_tum(const Graph& graph, const WriteOptions&, Sink& sink) {
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (!holds(graph, v)) continue;
     auto rest = line_at(graph, graph.vertex_line[v]);
-    const auto tag = next_word(rest);
+    const Space space = graph.type_of_vertex(v).space;
+    next_word(rest);
     out = next_word(rest);
-    if (planar(tag)) {
+    if (space == Space::se2) {
       append_planar(rest, out);
-    } else if (tag == "VERTEX3") {
+    } else if (space == Space::euler) {
       translate_euler_pose(rest, out);
     } else {
       copy_numbers(rest, 7, out);

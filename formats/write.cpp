@@ -33,7 +33,7 @@ void edit_fix_lines(const Graph& graph, const std::vector<bool>& drop_vertex,
     if (!dropped) continue;
     const auto [begin, end] = line_extent(graph, line);
     const auto newline = line_at(graph, line).ends_with('\r') ? "\r\n" : "\n";
-    edits.push_back({begin, end, kept.empty() ? "" : "FIX" + kept + std::string(newline)});
+    edits.push_back({begin, end, kept.empty() ? "" : std::string(fix_tag) + kept + newline});
   }
 }
 

@@ -33,6 +33,9 @@ void add_read_options(Command& command, ReadOptions& options) {
   command.app.add_option("--edge", options.edge_types, "Teach an edge tag")
       ->option_text("TAG:ARITY")
       ->allow_extra_args(false);
+  command.app.add_option("--params", options.param_tags, "Teach a tag of parameters")
+      ->option_text("TAG")
+      ->allow_extra_args(false);
 }
 
 int report(const Command& command, const Error& error) {

@@ -101,16 +101,16 @@ std::vector<std::array<double, 3>> positions(const Graph& graph) {
   std::vector<std::array<double, 3>> result(graph.vertices(), {0, 0, 0});
   std::vector<double> numbers;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    const std::string& tag = graph.type_of_vertex(v).tag;
-    const auto space = find_space(tag);
-    if (!space) throw error_at(graph, graph.vertex_line[v], tag + " has no place on a map");
+    const VertexType& type = graph.type_of_vertex(v);
+    const int coordinates = facts(type.space).position;
+    if (coordinates == 0)
+      throw error_at(graph, graph.vertex_line[v], type.tag + " has no place on a map");
     if (graph.edges_only) {
       numbers = estimate_numbers(problem, values, v);
     } else {
       vertex_numbers(graph, v, numbers);
     }
-    const bool plane = *space == Space::se2 || *space == Space::xy;
-    std::copy_n(numbers.begin(), plane ? 2 : 3, result[v].begin());
+    std::copy_n(numbers.begin(), coordinates, result[v].begin());
     for (const double x : result[v]) {
       if (!std::isfinite(x)) throw error_at(graph, graph.vertex_line[v], "no finite position");
     }

@@ -22,11 +22,9 @@ inline Eigen::Vector3d g2o_log_so3(const Eigen::Quaterniond& q) {
   return log_so3(q);
 }
 
-struct EdgeSe3Expmap {
-  static constexpr std::string_view tag = "EDGE_SE3:EXPMAP";
-  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 7;
-  static constexpr std::array ends{Space::expmap, Space::expmap};
-  static constexpr std::array<ParamKind, 0> params{};
+template <>
+struct EdgeModel<EdgeTag::expmap> : Registered<EdgeTag::expmap> {
+  static constexpr int constants = 7;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     return from_file(Space::expmap, z, c);
@@ -105,17 +103,15 @@ inline Ray pixel_ray(const SE3& pose, const double* z, const Pinhole& camera) {
   return ray;
 }
 
-// c = z, then the camera. Tag: what differs between the types.
-template <class Type>
-struct PixelEdge {
-  static constexpr std::string_view tag = Type::tag;
-  static constexpr int dim = Type::dim, measurement = dim, extra = Type::extra, constants = dim + 5;
-  static constexpr std::array ends{Space::xyz, Space::expmap};
-  static constexpr auto params = Type::params;
+// c = z, then the camera. Camera::of makes it of the numbers behind the information and of the
+// parameters.
+template <EdgeTag type, class Camera>
+struct PixelEdge : Registered<type> {
+  static constexpr int dim = Registered<type>::dim, constants = dim + 5;
 
   static bool prepare(const double* z, const double* const* p, double* c) {
     std::copy_n(z, dim, c);
-    const Pinhole camera = Type::camera(z + dim, p);
+    const Pinhole camera = Camera::of(z + dim, p);
     const double numbers[] = {camera.fx, camera.fy, camera.cx, camera.cy, camera.shift};
     std::copy_n(numbers, 5, c + dim);
     return true;
@@ -142,45 +138,31 @@ struct PixelEdge {
   }
 };
 
-inline Pinhole camera_of_parameters(const double* p) {
-  return {p[0], p[0], p[1], p[2], p[0] * p[3]};
-}
-
-struct XyzToUv {
-  static constexpr std::string_view tag = "EDGE_PROJECT_XYZ2UV:EXPMAP";
-  static constexpr int dim = 2, extra = 0;
-  static constexpr std::array params{ParamKind::camera_parameters};
-  static Pinhole camera(const double*, const double* const* p) {
-    return camera_of_parameters(p[0]);
+struct CameraParameter {
+  static Pinhole of(const double*, const double* const* p) {
+    return {p[0][0], p[0][0], p[0][1], p[0][2], p[0][0] * p[0][3]};
   }
 };
-struct XyzToUvu {
-  static constexpr std::string_view tag = "EDGE_PROJECT_XYZ2UVU:EXPMAP";
-  static constexpr int dim = 3, extra = 0;
-  static constexpr std::array params{ParamKind::camera_parameters};
-  static Pinhole camera(const double*, const double* const* p) {
-    return camera_of_parameters(p[0]);
-  }
-};
-struct XyzToPixel {
-  static constexpr std::string_view tag = "EDGE_SE3_PROJECT_XYZ:EXPMAP";
-  static constexpr int dim = 2, extra = 4;
-  static constexpr std::array<ParamKind, 0> params{};
-  static Pinhole camera(const double* extra, const double* const*) {
+struct MonoAtTheEnd {
+  static Pinhole of(const double* extra, const double* const*) {
     return {extra[0], extra[1], extra[2], extra[3], 0};
   }
 };
-struct XyzToStereo {
-  static constexpr std::string_view tag = "EDGE_STEREO_SE3_PROJECT_XYZ:EXPMAP";
-  static constexpr int dim = 3, extra = 5;
-  static constexpr std::array<ParamKind, 0> params{};
-  static Pinhole camera(const double* extra, const double* const*) {
+struct StereoAtTheEnd {
+  static Pinhole of(const double* extra, const double* const*) {
     return {extra[0], extra[1], extra[2], extra[3], extra[4]};
   }
 };
-using EdgeProjectXyz2Uv = PixelEdge<XyzToUv>;
-using EdgeProjectXyz2Uvu = PixelEdge<XyzToUvu>;
-using EdgeSe3ProjectXyz = PixelEdge<XyzToPixel>;
-using EdgeStereoSe3ProjectXyz = PixelEdge<XyzToStereo>;
+
+template <>
+struct EdgeModel<EdgeTag::project_xyz2uv> : PixelEdge<EdgeTag::project_xyz2uv, CameraParameter> {};
+template <>
+struct EdgeModel<EdgeTag::project_xyz2uvu> : PixelEdge<EdgeTag::project_xyz2uvu, CameraParameter> {
+};
+template <>
+struct EdgeModel<EdgeTag::se3_project_xyz> : PixelEdge<EdgeTag::se3_project_xyz, MonoAtTheEnd> {};
+template <>
+struct EdgeModel<EdgeTag::stereo_se3_project_xyz>
+    : PixelEdge<EdgeTag::stereo_se3_project_xyz, StereoAtTheEnd> {};
 
 }  // namespace sg

@@ -9,11 +9,9 @@
 
 namespace sg {
 
-template <Space space>
-struct PointPrior {
-  static constexpr int dim = space_dim(space), measurement = dim, extra = 0, constants = dim;
-  static constexpr std::array ends{space};
-  static constexpr std::array<ParamKind, 0> params{};
+template <EdgeTag type>
+struct PointPrior : Registered<type> {
+  static constexpr int dim = Registered<type>::dim, constants = dim;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     std::copy_n(z, dim, c);
@@ -29,11 +27,9 @@ struct PointPrior {
   }
 };
 
-template <Space space>
-struct PointPair {
-  static constexpr int dim = space_dim(space), measurement = dim, extra = 0, constants = dim;
-  static constexpr std::array ends{space, space};
-  static constexpr std::array<ParamKind, 0> params{};
+template <EdgeTag type>
+struct PointPair : Registered<type> {
+  static constexpr int dim = Registered<type>::dim, constants = dim;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     std::copy_n(z, dim, c);
@@ -52,17 +48,13 @@ struct PointPair {
   }
 };
 
-struct EdgePriorXy : PointPrior<Space::xy> {
-  static constexpr std::string_view tag = "EDGE_PRIOR_XY";
-};
-struct EdgePointXyzPrior : PointPrior<Space::xyz> {
-  static constexpr std::string_view tag = "EDGE_POINTXYZ_PRIOR";
-};
-struct EdgePointXy : PointPair<Space::xy> {
-  static constexpr std::string_view tag = "EDGE_POINTXY";
-};
-struct EdgePointXyz : PointPair<Space::xyz> {
-  static constexpr std::string_view tag = "EDGE_POINTXYZ";
-};
+template <>
+struct EdgeModel<EdgeTag::prior_xy> : PointPrior<EdgeTag::prior_xy> {};
+template <>
+struct EdgeModel<EdgeTag::pointxyz_prior> : PointPrior<EdgeTag::pointxyz_prior> {};
+template <>
+struct EdgeModel<EdgeTag::pointxy> : PointPair<EdgeTag::pointxy> {};
+template <>
+struct EdgeModel<EdgeTag::pointxyz> : PointPair<EdgeTag::pointxyz> {};
 
 }  // namespace sg

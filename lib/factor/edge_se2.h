@@ -14,11 +14,9 @@
 
 namespace sg {
 
-struct EdgeSe2 {
-  static constexpr std::string_view tag = "EDGE_SE2";
-  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 5;
-  static constexpr std::array ends{Space::se2, Space::se2};
-  static constexpr std::array<ParamKind, 0> params{};
+template <>
+struct EdgeModel<EdgeTag::se2> : Registered<EdgeTag::se2> {
+  static constexpr int constants = 5;
 
   // c = z, cos and sin of its angle
   static bool prepare(const double* z, const double* const*, double* c) {
@@ -51,11 +49,9 @@ struct EdgeSe2 {
   }
 };
 
-struct EdgeSe2Offset {
-  static constexpr std::string_view tag = "EDGE_SE2_OFFSET";
-  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 9;
-  static constexpr std::array ends{Space::se2, Space::se2};
-  static constexpr std::array params{ParamKind::se2_offset, ParamKind::se2_offset};
+template <>
+struct EdgeModel<EdgeTag::se2_offset> : Registered<EdgeTag::se2_offset> {
+  static constexpr int constants = 9;
 
   // c = z, p_i, p_j
   static bool prepare(const double* z, const double* const* p, double* c) {
@@ -88,11 +84,9 @@ struct EdgeSe2Offset {
   }
 };
 
-struct EdgePriorSe2 {
-  static constexpr std::string_view tag = "EDGE_PRIOR_SE2";
-  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 3;
-  static constexpr std::array ends{Space::se2};
-  static constexpr std::array<ParamKind, 0> params{};
+template <>
+struct EdgeModel<EdgeTag::prior_se2> : Registered<EdgeTag::prior_se2> {
+  static constexpr int constants = 3;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     set_se2(se2(z), c);
@@ -112,11 +106,9 @@ struct EdgePriorSe2 {
   }
 };
 
-struct EdgePriorSe2Xy {
-  static constexpr std::string_view tag = "EDGE_PRIOR_SE2_XY";
-  static constexpr int dim = 2, measurement = 2, extra = 0, constants = 2;
-  static constexpr std::array ends{Space::se2};
-  static constexpr std::array<ParamKind, 0> params{};
+template <>
+struct EdgeModel<EdgeTag::prior_se2_xy> : Registered<EdgeTag::prior_se2_xy> {
+  static constexpr int constants = 2;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     c[0] = z[0];

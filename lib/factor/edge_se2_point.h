@@ -10,11 +10,9 @@
 
 namespace sg {
 
-struct EdgeSe2Xy {
-  static constexpr std::string_view tag = "EDGE_SE2_XY";
-  static constexpr int dim = 2, measurement = 2, extra = 0, constants = 2;
-  static constexpr std::array ends{Space::se2, Space::xy};
-  static constexpr std::array<ParamKind, 0> params{};
+template <>
+struct EdgeModel<EdgeTag::se2_xy> : Registered<EdgeTag::se2_xy> {
+  static constexpr int constants = 2;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     c[0] = z[0];
@@ -40,11 +38,9 @@ struct EdgeSe2Xy {
   }
 };
 
-struct EdgeBearingSe2Xy {
-  static constexpr std::string_view tag = "EDGE_BEARING_SE2_XY";
-  static constexpr int dim = 1, measurement = 1, extra = 0, constants = 1;
-  static constexpr std::array ends{Space::se2, Space::xy};
-  static constexpr std::array<ParamKind, 0> params{};
+template <>
+struct EdgeModel<EdgeTag::bearing_se2_xy> : Registered<EdgeTag::bearing_se2_xy> {
+  static constexpr int constants = 1;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     c[0] = z[0];

@@ -60,11 +60,9 @@ inline void set_jacobian(const SE3& a, const SE3& b, double sign, double* J) {
   result.bottomRightCorner<3, 3>() = flip * vector_part(a.q, b.q);
 }
 
-struct EdgeSe3Quat {
-  static constexpr std::string_view tag = "EDGE_SE3:QUAT";
-  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 7;
-  static constexpr std::array ends{Space::se3, Space::se3};
-  static constexpr std::array<ParamKind, 0> params{};
+template <>
+struct EdgeModel<EdgeTag::se3> : Registered<EdgeTag::se3> {
+  static constexpr int constants = 7;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     return prepare_se3(z, c);
@@ -88,11 +86,9 @@ struct EdgeSe3Quat {
   }
 };
 
-struct EdgeSe3Offset {
-  static constexpr std::string_view tag = "EDGE_SE3_OFFSET";
-  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 21;
-  static constexpr std::array ends{Space::se3, Space::se3};
-  static constexpr std::array params{ParamKind::se3_offset, ParamKind::se3_offset};
+template <>
+struct EdgeModel<EdgeTag::se3_offset> : Registered<EdgeTag::se3_offset> {
+  static constexpr int constants = 21;
 
   // c = z, p_i, p_j
   static bool prepare(const double* z, const double* const* p, double* c) {
@@ -121,11 +117,9 @@ struct EdgeSe3Offset {
   }
 };
 
-struct EdgeSe3Prior {
-  static constexpr std::string_view tag = "EDGE_SE3_PRIOR";
-  static constexpr int dim = 6, measurement = 7, extra = 0, constants = 14;
-  static constexpr std::array ends{Space::se3};
-  static constexpr std::array params{ParamKind::se3_offset};
+template <>
+struct EdgeModel<EdgeTag::se3_prior> : Registered<EdgeTag::se3_prior> {
+  static constexpr int constants = 14;
 
   // c = z, p; of this type alone g2o leaves the measurement's quaternion as its text has it
   static bool prepare(const double* z, const double* const* p, double* c) {
@@ -148,11 +142,9 @@ struct EdgeSe3Prior {
   }
 };
 
-struct EdgeSe3XyzPrior {
-  static constexpr std::string_view tag = "EDGE_SE3_XYZ_PRIOR";
-  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 3;
-  static constexpr std::array ends{Space::se3};
-  static constexpr std::array params{ParamKind::se3_offset};
+template <>
+struct EdgeModel<EdgeTag::se3_xyz_prior> : Registered<EdgeTag::se3_xyz_prior> {
+  static constexpr int constants = 3;
 
   static bool prepare(const double* z, const double* const*, double* c) {
     std::copy_n(z, 3, c);

@@ -35,11 +35,9 @@ inline void set_point_jacobians(const Eigen::Matrix3d& slope, const double* x, c
   Eigen::Map<Eigen::Matrix3d>{J[1]} = turned * se3(x).q.conjugate().toRotationMatrix();
 }
 
-struct EdgeSe3TrackXyz {
-  static constexpr std::string_view tag = "EDGE_SE3_TRACKXYZ";
-  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 10;
-  static constexpr std::array ends{Space::se3, Space::xyz};
-  static constexpr std::array params{ParamKind::se3_offset};
+template <>
+struct EdgeModel<EdgeTag::se3_trackxyz> : Registered<EdgeTag::se3_trackxyz> {
+  static constexpr int constants = 10;
 
   // c = z, p
   static bool prepare(const double* z, const double* const* p, double* c) {
@@ -64,12 +62,9 @@ struct EdgeSe3TrackXyz {
 
 // What a pixel (u, v) and a depth say together. Third: the third number of the measurement as a
 // function of depth, its derivative, and its inverse.
-template <class Third>
-struct EdgePixelDepth {
-  static constexpr std::string_view tag = Third::tag;
-  static constexpr int dim = 3, measurement = 3, extra = 0, constants = 14;
-  static constexpr std::array ends{Space::se3, Space::xyz};
-  static constexpr std::array params{ParamKind::camera_calibration};
+template <EdgeTag type, class Third>
+struct PixelDepth : Registered<type> {
+  static constexpr int constants = 14;
 
   // c = z, p, fx fy cx cy
   static bool prepare(const double* z, const double* const* p, double* c) {
@@ -103,18 +98,19 @@ struct EdgePixelDepth {
 };
 
 struct DisparityOfDepth {
-  static constexpr std::string_view tag = "EDGE_PROJECT_DISPARITY";
   static double of_depth(double w) { return 1 / w; }
   static double slope(double w) { return -1 / (w * w); }
   static double to_depth(double disparity) { return 1 / disparity; }
 };
 struct DepthOfDepth {
-  static constexpr std::string_view tag = "EDGE_PROJECT_DEPTH";
   static double of_depth(double w) { return w; }
   static double slope(double) { return 1; }
   static double to_depth(double depth) { return depth; }
 };
-using EdgeProjectDisparity = EdgePixelDepth<DisparityOfDepth>;
-using EdgeProjectDepth = EdgePixelDepth<DepthOfDepth>;
+template <>
+struct EdgeModel<EdgeTag::project_disparity>
+    : PixelDepth<EdgeTag::project_disparity, DisparityOfDepth> {};
+template <>
+struct EdgeModel<EdgeTag::project_depth> : PixelDepth<EdgeTag::project_depth, DepthOfDepth> {};
 
 }  // namespace sg

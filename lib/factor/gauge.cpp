@@ -34,11 +34,9 @@ Eigen::Vector3d position(Space space, const double* x) {
       return {x[0], x[1], 0};
     case Space::expmap:
       return inverse(se3(x)).t;
-    case Space::se3:
-    case Space::xyz:
-      break;
+    default:
+      return vector3(x);
   }
-  return vector3(x);
 }
 
 Eigen::Vector3d position(const Problem& problem, const Values& values, Index v) {
@@ -84,7 +82,7 @@ Motions motions_of(const Problem& problem, const Values& values, Index v, const 
     case Space::xy:
       step = moved.topRows(2);
       break;
-    case Space::xyz:
+    default:
       step = moved;
   }
   return step;

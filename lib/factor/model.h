@@ -5,15 +5,16 @@
 // is the number that g2o prints. With W = U' U the whitened error is U e. Jacobians are taken with
 // respect to the steps of space.h.
 //
-// A type is a struct in a header of its own (edge_se2.h is the pattern to follow) and a row in
-// models.cpp:
-//     tag          the edge's
+// The model of a type is a specialization of EdgeModel in a header of its own, which models.cpp
+// includes (edge_se2.h is the pattern to follow). What the type's row in the registry tells, it
+// takes from there by Registered:
 //     dim          of the error
 //     measurement  numbers of the measurement, before the information matrix
 //     extra        numbers behind the information matrix
-//     constants    numbers that a factor keeps in memory
 //     ends         the spaces of its vertices, in file order
-//     params       the kinds of its parameters, in file order
+//     params       its parameters, in file order
+// and adds
+//     constants    numbers that a factor keeps in memory
 //     prepare(z, params, c)     measurement, extra numbers and parameters to the constants c
 //     evaluate(x, c, e, J)      error and, unless J is null, the Jacobian J[k] (dim x space_dim, by
 //                               column) of vertex k
@@ -36,15 +37,26 @@ constexpr int max_dim = 6;                                     // of an error, a
 constexpr int max_size = 7;                                    // of an estimate
 constexpr int max_block = max_dim * (max_ends * max_dim + 1);  // numbers of a linearized factor
 
-enum class ParamKind { se2_offset, se3_offset, camera_calibration, camera_parameters };
-// The numbers that every parameter of this kind starts with.
-constexpr int param_size(ParamKind kind) {
-  return std::array{3, 7, 11, 4}[static_cast<int>(kind)];
-}
-// Whether a parameter line of this tag can serve as one (a stereo camera is a camera, a camera has
-// an offset).
-bool serves_as(ParamKind kind, std::string_view param_tag);
-std::string_view name(ParamKind kind);
+template <EdgeTag type>
+struct EdgeModel;  // has no definition where there is no model
+
+template <EdgeTag type>
+struct Registered {
+  static constexpr const EdgeRow& edge = row(type);
+  static constexpr int dim = edge.measure.dim;
+  static constexpr int measurement = edge.measure.numbers;
+  static constexpr int extra = edge.measure.extra;
+  static constexpr auto ends = [] {
+    std::array<Space, edge.ends.size> spaces{};
+    for (std::size_t k = 0; k < spaces.size(); ++k) spaces[k] = row(edge.ends[k]).space;
+    return spaces;
+  }();
+  static constexpr auto params = [] {
+    std::array<ParamTag, edge.params.size> tags{};
+    std::copy_n(edge.params.item.begin(), tags.size(), tags.begin());
+    return tags;
+  }();
+};
 
 // Linear constraints on a landmark p: row' [p; -1] = 0 with |row of p| = 1, at most two from an
 // observation; `ahead` points from the observer along the ray, of unit length, `origin` is where it
@@ -63,6 +75,7 @@ struct Whitening {
 };
 
 struct Model {
+  EdgeTag type;
   std::string_view tag;
   int dim;
   int measurement;
@@ -70,7 +83,7 @@ struct Model {
   int constants;
   int arity;
   std::array<Space, max_ends> ends;
-  std::span<const ParamKind> params;
+  std::span<const ParamTag> params;
 
   // False for a measurement that is none (a quaternion of length zero).
   bool (*prepare)(const double* z, const double* const* params, double* c);
@@ -84,6 +97,6 @@ struct Model {
 };
 
 std::span<const Model> models();
-const Model* find_model(std::string_view edge_tag);
+const Model* find_model(EdgeTag type);  // null where there is none
 
 }  // namespace sg

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "lib/factor/edge_expmap.h"
 #include "lib/factor/edge_point.h"
@@ -58,7 +60,8 @@ void linearize(const double* const* x, const double* c, const Whitening& U, doub
 template <class Type>
 Model model() {
   Model row{};
-  row.tag = Type::tag;
+  row.type = Type::edge.type;
+  row.tag = Type::edge.tag;
   row.dim = Type::dim;
   row.measurement = Type::measurement;
   row.extra = Type::extra;
@@ -74,44 +77,36 @@ Model model() {
   return row;
 }
 
-const std::array table{
-    model<EdgeSe2>(),           model<EdgeSe2Offset>(),
-    model<EdgePriorSe2>(),      model<EdgePriorSe2Xy>(),
-    model<EdgeSe2Xy>(),         model<EdgeBearingSe2Xy>(),
-    model<EdgePriorXy>(),       model<EdgePointXy>(),
-    model<EdgeSe3Quat>(),       model<EdgeSe3Offset>(),
-    model<EdgeSe3Prior>(),      model<EdgeSe3XyzPrior>(),
-    model<EdgeSe3TrackXyz>(),   model<EdgeProjectDisparity>(),
-    model<EdgeProjectDepth>(),  model<EdgePointXyz>(),
-    model<EdgePointXyzPrior>(), model<EdgeSe3Expmap>(),
-    model<EdgeProjectXyz2Uv>(), model<EdgeProjectXyz2Uvu>(),
-    model<EdgeSe3ProjectXyz>(), model<EdgeStereoSe3ProjectXyz>(),
-};
+template <EdgeTag type>
+void add_model(std::vector<Model>& table) {
+  if constexpr (requires { EdgeModel<type>::evaluate; }) table.push_back(model<EdgeModel<type>>());
+}
+
+template <std::size_t... type>
+std::vector<Model> all_models(std::index_sequence<type...>) {
+  std::vector<Model> table;
+  (add_model<static_cast<EdgeTag>(type)>(table), ...);
+  return table;
+}
+
+// By type; null for those without a model.
+std::array<const Model*, edge_rows.size()> by_type() {
+  std::array<const Model*, edge_rows.size()> result{};
+  for (const Model& m : models()) result[static_cast<std::size_t>(m.type)] = &m;
+  return result;
+}
 
 }  // namespace
 
 std::span<const Model> models() {
+  static const auto table = all_models(std::make_index_sequence<edge_rows.size()>());
   return table;
 }
 
-const Model* find_model(std::string_view edge_tag) {
-  const auto row =
-      std::find_if(table.begin(), table.end(), [&](const Model& m) { return m.tag == edge_tag; });
-  return row == table.end() ? nullptr : &*row;
-}
-
-std::string_view name(ParamKind kind) {
-  return std::array<std::string_view, 4>{"PARAMS_SE2OFFSET", "PARAMS_SE3OFFSET",
-                                         "PARAMS_CAMERACALIB",
-                                         "PARAMS_CAMERAPARAMETERS"}[static_cast<int>(kind)];
-}
-
-bool serves_as(ParamKind kind, std::string_view param_tag) {
-  if (param_tag == name(kind)) return true;
-  const bool stereo = param_tag == "PARAMS_STEREOCAMERACALIB";
-  const bool camera = stereo || param_tag == name(ParamKind::camera_calibration);
-  return (kind == ParamKind::camera_calibration && stereo) ||
-         (kind == ParamKind::se3_offset && camera);
+const Model* find_model(EdgeTag type) {
+  static const auto table = by_type();
+  const auto index = static_cast<std::size_t>(type);
+  return index < table.size() ? table[index] : nullptr;
 }
 
 }  // namespace sg

@@ -20,7 +20,7 @@ std::string quoted(std::string_view text) {
 }
 
 struct ParsedParam {
-  std::string_view tag;
+  ParamTag type;
   Offset line;
   std::vector<double> numbers;
 };
@@ -35,8 +35,7 @@ void check_finite(const Graph& graph, Offset line, const std::vector<double>& nu
 ParamTable parse_params(const Graph& graph) {
   ParamTable table;
   for (const Param& param : graph.params) {
-    auto text = line_at(graph, param.line);
-    ParsedParam parsed{next_word(text), param.line, {}};
+    ParsedParam parsed{param.type, param.line, {}};
     param_numbers(graph, param, parsed.numbers);
     check_finite(graph, param.line, parsed.numbers);
     table[param.id] = std::move(parsed);
@@ -44,12 +43,19 @@ ParamTable parse_params(const Graph& graph) {
   return table;
 }
 
+// Whether a line of one type of parameters can stand for another: a stereo camera is a camera, and a
+// camera has an offset.
+bool serves_as(ParamTag wanted, ParamTag given) {
+  if (given == wanted || given == ParamTag::unknown) return given == wanted;
+  return row(given).also != given && serves_as(wanted, row(given).also);
+}
+
 // The pose that a parameter starts with is brought to unit length: text rounds it.
-void normalize_param(const Graph& graph, ParamKind kind, ParsedParam& param) {
-  if (static_cast<int>(param.numbers.size()) < param_size(kind)) {
-    throw error_at(graph, param.line, quoted(param.tag) + " has too few numbers");
+void normalize_param(const Graph& graph, ParamTag wanted, ParsedParam& param) {
+  if (static_cast<int>(param.numbers.size()) < row(wanted).numbers) {
+    throw error_at(graph, param.line, quoted(name(param.type)) + " has too few numbers");
   }
-  if (kind != ParamKind::se3_offset && kind != ParamKind::camera_calibration) return;
+  if (!has_quaternion(row(wanted).frame)) return;
   const SE3 pose = se3(param.numbers.data());
   if (pose.q.norm() < 1e-6) throw error_at(graph, param.line, "a quaternion has length zero");
   set_se3(normalized(pose), param.numbers.data());
@@ -70,13 +76,13 @@ std::array<const double*, max_ends> find_params(Builder& builder, Index e, const
   const auto ids = edge_params(graph, e);
   for (std::size_t k = 0; k < model.params.size(); ++k) {
     const auto entry = builder.params.find(ids[k]);
-    const ParamKind kind = model.params[k];
-    if (entry == builder.params.end() || !serves_as(kind, entry->second.tag)) {
+    const ParamTag wanted = model.params[k];
+    if (entry == builder.params.end() || !serves_as(wanted, entry->second.type)) {
       throw error_at(graph, graph.edge_line[e],
-                     quoted(model.tag) + " wants a " + quoted(name(kind)) + " line with the id " +
+                     quoted(model.tag) + " wants a " + quoted(name(wanted)) + " line with the id " +
                          std::to_string(ids[k]));
     }
-    normalize_param(graph, kind, entry->second);
+    normalize_param(graph, wanted, entry->second);
     found[k] = entry->second.numbers.data();
   }
   return found;
@@ -90,7 +96,7 @@ void check_ends(const Builder& builder, Index e, const Model& model) {
     throw error_at(builder.graph, builder.graph.edge_line[e],
                    quoted(model.tag) + " joins vertex " + std::to_string(builder.graph.id[v]) +
                        ", a " + builder.graph.type_of_vertex(v).tag + ", where it wants a " +
-                       quoted(name(model.ends[k])));
+                       quoted(name(row(model.type).ends[k])));
   }
 }
 
@@ -113,7 +119,7 @@ void add_factor(Builder& builder, Index e) {
   const Graph& graph = builder.graph;
   const Offset line = graph.edge_line[e];
   const EdgeType& type = graph.type_of_edge(e);
-  const Model* model = find_model(type.tag);
+  const Model* model = find_model(graph.edge_tag(e));
   if (!model) throw error_at(graph, line, type.tag + " has no measurement model here");
   check_ends(builder, e, *model);
 
@@ -148,13 +154,13 @@ void lay_out_values(Problem& problem) {
   const Graph& graph = *problem.graph;
   problem.value_at.push_back(0);
   for (Index v = 0; v < graph.vertices(); ++v) {
-    const auto space = find_space(graph.type_of_vertex(v).tag);
-    if (!space) {
+    const Space space = graph.type_of_vertex(v).space;
+    if (!has_steps(space)) {
       throw error_at(graph, graph.vertex_line[v],
                      graph.type_of_vertex(v).tag + " has no measurement model here");
     }
-    problem.space.push_back(*space);
-    problem.value_at.push_back(problem.value_at.back() + space_size(*space));
+    problem.space.push_back(space);
+    problem.value_at.push_back(problem.value_at.back() + space_size(space));
   }
 }
 

@@ -7,33 +7,11 @@
 namespace sg {
 namespace {
 
-struct Row {
-  std::string_view tag;
-  Space space;
-};
-constexpr std::array rows{
-    Row{"VERTEX_SE2", Space::se2},           Row{"VERTEX_SE3:QUAT", Space::se3},
-    Row{"VERTEX_SE3:EXPMAP", Space::expmap}, Row{"VERTEX_XY", Space::xy},
-    Row{"VERTEX_TRACKXYZ", Space::xyz},      Row{"VERTEX_XYZ", Space::xyz},
-};
-
 Vector6d vector6(const double* x) {
   return Eigen::Map<const Vector6d>(x);
 }
 
 }  // namespace
-
-std::optional<Space> find_space(std::string_view vertex_tag) {
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.tag == vertex_tag; });
-  if (row == rows.end()) return std::nullopt;
-  return row->space;
-}
-
-std::string_view name(Space space) {
-  return std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.space == space; })
-      ->tag;
-}
 
 void retract(Space space, const double* step, double* x) {
   switch (space) {
@@ -51,6 +29,9 @@ void retract(Space space, const double* step, double* x) {
     case Space::xy:
     case Space::xyz:
       for (int k = 0; k < space_dim(space); ++k) x[k] += step[k];
+      break;
+    default:
+      break;  // no steps
   }
 }
 

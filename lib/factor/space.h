@@ -1,32 +1,25 @@
-// The spaces that estimates live in: how many numbers one takes, and how a tangent step moves it.
+// How a tangent step moves an estimate, and how a file's line becomes one.
 //
 // The steps are g2o's (`oplus`), so that Jacobians, information matrices and iterates compare with
 // its own:
-//   se2     VERTEX_SE2                  (x, y, theta): added number by number, theta wrapped
-//   se3     VERTEX_SE3:QUAT             (x, y, z, qx, qy, qz, qw): x d, where d is the translation
-//                                       step[0..2] and the quaternion with vector part step[3..5]
-//   expmap  VERTEX_SE3:EXPMAP           the same seven numbers: exp(step) x, step = (rotation,
-//                                       translation)
-//   xy      VERTEX_XY                   added
-//   xyz     VERTEX_TRACKXYZ, VERTEX_XYZ added
+//   se2      (x, y, theta): added number by number, theta wrapped
+//   se3      (x, y, z, qx, qy, qz, qw): x d, where d is the translation step[0..2] and the
+//            quaternion with vector part step[3..5]
+//   expmap   the same seven numbers: exp(step) x, step = (rotation, translation)
+//   xy, xyz  added
 // An expmap estimate maps world to camera; its file line holds the inverse. Quaternions have unit
 // length in memory.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string_view>
+#include "lib/graph/types.h"
 
 namespace sg {
 
-enum class Space { se2, se3, expmap, xy, xyz };
-
-constexpr int space_dim(Space space) {
-  return std::array{3, 6, 6, 2, 3}[static_cast<int>(space)];
-}
-// Numbers of an estimate, in memory as in a vertex line.
-constexpr int space_size(Space space) {
-  return std::array{3, 7, 7, 2, 3}[static_cast<int>(space)];
+// Whether there are steps of this space here; the functions below take no other. An estimate has
+// as many numbers in memory as in a vertex line.
+constexpr bool has_steps(Space space) {
+  return space == Space::se2 || space == Space::se3 || space == Space::expmap ||
+         space == Space::xy || space == Space::xyz;
 }
 
 // Whether a scalar of a step turns, in radians or halves of them; the others move, in metres.
@@ -34,10 +27,6 @@ constexpr bool is_turn(Space space, int scalar) {
   if (space == Space::expmap) return scalar < 3;
   return (space == Space::se2 && scalar == 2) || (space == Space::se3 && scalar >= 3);
 }
-
-// Of a vertex tag; nothing for a vertex that no measurement model knows.
-std::optional<Space> find_space(std::string_view vertex_tag);
-std::string_view name(Space space);
 
 // x := x (+) step.
 void retract(Space space, const double* step, double* x);

@@ -8,7 +8,6 @@
 
 #include "lib/geometry/triangle.h"
 #include "lib/graph/components.h"
-#include "lib/text/words.h"
 
 namespace sg {
 namespace {
@@ -43,7 +42,7 @@ bool semidefinite(const Eigen::MatrixXd& matrix) {
 }
 
 // `numbers`: of the edge's line, as edge_numbers gives them.
-void check_information(const Graph& graph, Index e, Numbers numbers, Findings& findings) {
+void check_information(const Graph& graph, Index e, const Numbers& numbers, Findings& findings) {
   const EdgeType& type = graph.type_of_edge(e);
   if (type.measurement < 0) return;
   const auto repeats = static_cast<Index>(type.counted ? graph.edge(e).size() - 1 : 1);
@@ -51,12 +50,7 @@ void check_information(const Graph& graph, Index e, Numbers numbers, Findings& f
   const std::int64_t dim = type.counted ? measurement : type.dim;
   const auto given = static_cast<std::int64_t>(numbers.size()) - measurement;
   if (dim == 0 || given < triangle_size(dim)) return;
-  double* const w = numbers.data() + measurement;
-  if (type.tag == "EDGE2") {  // 11 12 22 33 13 23: TORO's own order
-    std::swap(w[2], w[4]);
-    std::swap(w[3], w[5]);
-    std::swap(w[3], w[4]);
-  }
+  const double* const w = numbers.data() + measurement;
   const auto size = static_cast<std::size_t>(triangle_size(dim));
   if (!semidefinite(symmetric<Eigen::MatrixXd>({w, size}, dim))) {
     findings.push_back({graph.edge_line[e], true,
@@ -85,8 +79,7 @@ void check_edges(const Graph& graph, Findings& findings) {
       continue;
     }
     const EdgeType& type = graph.type_of_edge(e);
-    if (type.measurement == 7 && type.dim == 6)
-      check_quaternion(graph.edge_line[e], numbers, findings);
+    if (has_quaternion(type.space)) check_quaternion(graph.edge_line[e], numbers, findings);
     check_information(graph, e, numbers, findings);
   }
 }
@@ -100,7 +93,7 @@ void check_vertices(const Graph& graph, Findings& findings) {
     const VertexType& type = graph.type_of_vertex(v);
     if (!finite(numbers)) {
       findings.push_back({line, true, "a number is infinite or not a number"});
-    } else if (type.dim == 6 && type.numbers >= 7) {
+    } else if (has_quaternion(type.space)) {
       check_quaternion(line, numbers, findings);
     }
   }
@@ -110,10 +103,7 @@ void check_params(const Graph& graph, Findings& findings) {
   Numbers numbers;
   for (const Param& param : graph.params) {
     param_numbers(graph, param, numbers);
-    auto rest = line_at(graph, param.line);
-    const auto tag = next_word(rest);
-    const bool pose = tag == "PARAMS_SE3OFFSET" || tag == "PARAMS_CAMERACALIB" ||
-                      tag == "PARAMS_STEREOCAMERACALIB";
+    const bool pose = param.type != ParamTag::unknown && has_quaternion(row(param.type).frame);
     if (!finite(numbers)) {
       findings.push_back({param.line, true, "a number is infinite or not a number"});
     } else if (pose && numbers.size() >= 7) {

@@ -1,6 +1,7 @@
 #include "lib/graph/graph.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <numeric>
 
@@ -27,6 +28,13 @@ std::string_view after(const Graph& graph, Offset line, std::size_t words) {
   auto rest = line_at(graph, line);
   for (std::size_t k = 0; k <= words; ++k) next_word(rest);
   return rest;
+}
+
+// Brings the six numbers of TORO's triangle into the order of its rows.
+void sort_triangle(double* w) {
+  std::array<double, toro_triangle.size()> rows{};
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[toro_triangle[k]] = w[k];
+  std::copy(rows.begin(), rows.end(), w);
 }
 
 // Words between an edge's tag and its parameter ids: vertex ids, and the count of a counted edge.
@@ -62,8 +70,10 @@ void vertex_numbers(const Graph& graph, Index v, std::vector<double>& numbers) {
 }
 
 void edge_numbers(const Graph& graph, Index e, std::vector<double>& numbers) {
-  const std::size_t skip = id_words(graph, e) + graph.type_of_edge(e).params;
+  const EdgeType& type = graph.type_of_edge(e);
+  const std::size_t skip = id_words(graph, e) + type.params.size;
   parse_rest(graph, graph.edge_line[e], after(graph, graph.edge_line[e], skip), numbers);
+  if (type.order == Triangle::toro) sort_triangle(numbers.data() + type.measurement);
 }
 
 void param_numbers(const Graph& graph, const Param& param, std::vector<double>& numbers) {
@@ -72,7 +82,7 @@ void param_numbers(const Graph& graph, const Param& param, std::vector<double>& 
 
 std::vector<Id> edge_params(const Graph& graph, Index e) {
   auto rest = after(graph, graph.edge_line[e], id_words(graph, e));
-  std::vector<Id> ids(graph.type_of_edge(e).params);
+  std::vector<Id> ids(graph.type_of_edge(e).params.size);
   for (Id& id : ids) {
     const auto value = parse<Id>(next_word(rest));
     if (!value) throw error_at(graph, graph.edge_line[e], "a parameter id is missing");

@@ -29,6 +29,7 @@ constexpr Offset implied = -1;  // the line of a vertex that only its edges ment
 
 struct Param {
   Id id;
+  ParamTag type;
   Offset line;
 };
 
@@ -62,6 +63,9 @@ struct Graph {
   }
   const VertexType& type_of_vertex(Index v) const { return tags.vertices[vertex_type[v]]; }
   const EdgeType& type_of_edge(Index e) const { return tags.edges[edge_type[e]]; }
+  // Of a taught type: none of the enumerators.
+  VertexTag vertex_tag(Index v) const { return VertexTag{vertex_type[v]}; }
+  EdgeTag edge_tag(Index e) const { return EdgeTag{edge_type[e]}; }
   int dim(Index v) const { return type_of_vertex(v).dim; }
   Role role(Index v) const { return type_of_vertex(v).role; }
 };
@@ -80,12 +84,12 @@ struct Error;
 Error error_at(const Graph& graph, Offset line, const std::string& cause);
 
 // The numbers of a vertex line after its id; of an edge line after its vertex and parameter ids; of
-// a parameter line after its id. Appended to nothing: `numbers` is cleared first, so that one
-// buffer serves a loop.
+// a parameter line after its id. Information is given row by row, whatever order its line has it
+// in. Appended to nothing: `numbers` is cleared first, so that one buffer serves a loop.
 void vertex_numbers(const Graph& graph, Index v, std::vector<double>& numbers);
 void edge_numbers(const Graph& graph, Index e, std::vector<double>& numbers);
 void param_numbers(const Graph& graph, const Param& param, std::vector<double>& numbers);
-// The parameter ids of an edge line: EdgeType::params of them.
+// The parameter ids of an edge line, one for each of EdgeType::params.
 std::vector<Id> edge_params(const Graph& graph, Index e);
 
 // Vertices in the order in which the file names them: by VERTEX line, or by first mention in an

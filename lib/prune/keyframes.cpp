@@ -24,11 +24,11 @@ SE3 estimate(const Graph& graph, Index v) {
 void require_composable(const Graph& graph, const Lists<>& odometry, Index k) {
   for (Index e : odometry[k]) {
     const EdgeType& type = graph.type_of_edge(e);
-    if (!is_motion(type) || type.tag != graph.type_of_edge(odometry[k][0]).tag) {
+    if (!is_motion(graph.edge_tag(e)) || graph.edge_type[e] != graph.edge_type[odometry[k][0]]) {
       throw error_at(graph, graph.edge_line[e],
                      "cannot compose odometry of type " + type.tag + " across dropped poses");
     }
-    if (graph.edges_only && odometry[k].size() > 1 && type.tag == "EDGE_SE3:EXPMAP") {
+    if (graph.edges_only && odometry[k].size() > 1 && graph.edge_tag(e) == EdgeTag::expmap) {
       throw error_at(graph, graph.edge_line[e],
                      "cannot fuse several " + type.tag + " of one step without pose estimates");
     }
@@ -105,10 +105,9 @@ bool move_loop(Keyframing& kf, Index e) {
     ++kf.collapsed_loops;
     return false;
   }
-  const EdgeType& type = kf.graph.type_of_edge(e);
-  if (!is_motion(type)) {
+  if (!is_motion(kf.graph.edge_tag(e))) {
     throw error_at(kf.graph, kf.graph.edge_line[e],
-                   "cannot move a loop closure of type " + type.tag +
+                   "cannot move a loop closure of type " + kf.graph.type_of_edge(e).tag +
                        " to keyframes (--loops drop leaves them out)");
   }
   kf.rewritten[e] = true;

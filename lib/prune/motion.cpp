@@ -96,8 +96,8 @@ ExpmapMotion fuse_world(const std::vector<Motion>& motions, const SE3& first_pos
 }
 
 template <class Measured>
-std::string edge_text(std::string_view tag, const Measured& z, Id first, Id second) {
-  std::string text(tag);
+std::string edge_text(EdgeTag type, const Measured& z, Id first, Id second) {
+  std::string text(name(type));
   append_number(text, first);
   append_number(text, second);
   append_numbers(text, numbers_of(z.mean));
@@ -107,22 +107,20 @@ std::string edge_text(std::string_view tag, const Measured& z, Id first, Id seco
 
 }  // namespace
 
-bool is_motion(const EdgeType& type) {
-  return type.tag == "EDGE_SE2" || type.tag == "EDGE_SE3:QUAT" || type.tag == "EDGE_SE3:EXPMAP";
+bool is_motion(EdgeTag type) {
+  return type == EdgeTag::se2 || type == EdgeTag::se3 || type == EdgeTag::expmap;
 }
 
 std::optional<Motion> motion(const Graph& graph, Index e) {
-  const std::string& tag = graph.type_of_edge(e).tag;
-  if (!is_motion(graph.type_of_edge(e))) return std::nullopt;
+  const EdgeTag type = graph.edge_tag(e);
+  if (!is_motion(type)) return std::nullopt;
   thread_local std::vector<double> n;
   edge_numbers(graph, e, n);
-  const std::size_t needed = tag == "EDGE_SE2" ? 9 : 28;
-  if (n.size() < needed) throw error_at(graph, graph.edge_line[e], tag + " lacks numbers");
-  if (tag == "EDGE_SE2")
+  if (type == EdgeTag::se2)
     return UncertainSE2{se2(n.data()), symmetric<Matrix3d>(std::span(n).subspan(3))};
   const SE3 mean = normalized(se3(n.data()));
   const Matrix6d information = symmetric<Matrix6d>(std::span(n).subspan(7));
-  if (tag == "EDGE_SE3:QUAT") return UncertainSE3{mean, information};
+  if (type == EdgeTag::se3) return UncertainSE3{mean, information};
   return ExpmapMotion{mean, information};
 }
 
@@ -164,10 +162,10 @@ double angle(const Motion& motion) {
 
 std::string edge_text(const Motion& motion, Id first, Id second) {
   if (const auto* a = std::get_if<UncertainSE2>(&motion))
-    return edge_text("EDGE_SE2", *a, first, second);
+    return edge_text(EdgeTag::se2, *a, first, second);
   if (const auto* a = std::get_if<UncertainSE3>(&motion))
-    return edge_text("EDGE_SE3:QUAT", *a, first, second);
-  return edge_text("EDGE_SE3:EXPMAP", std::get<ExpmapMotion>(motion), first, second);
+    return edge_text(EdgeTag::se3, *a, first, second);
+  return edge_text(EdgeTag::expmap, std::get<ExpmapMotion>(motion), first, second);
 }
 
 }  // namespace sg

@@ -30,7 +30,7 @@ struct ExpmapMotion {
 using Motion = std::variant<UncertainSE2, UncertainSE3, ExpmapMotion>;
 
 // Whether `motion` can read edges of this type.
-bool is_motion(const EdgeType& type);
+bool is_motion(EdgeTag type);
 // The measurement of edge e, if it is of such a type.
 std::optional<Motion> motion(const Graph& graph, Index e);
 

@@ -10,10 +10,10 @@
 namespace sg {
 namespace {
 
-// Planar: x y theta. In space: x y z and a unit quaternion x y z w, whatever follows.
 SE3 pose_of(const Graph& graph, Index v, const std::vector<double>& n) {
-  if (graph.dim(v) == 3 && n.size() >= 3) return {exp_so3({0, 0, n[2]}), {n[0], n[1], 0}};
-  if (graph.dim(v) >= 6 && n.size() >= 7) return normalized(se3(n.data()));
+  const Space space = graph.type_of_vertex(v).space;
+  if (space == Space::se2) return {exp_so3({0, 0, n[2]}), {n[0], n[1], 0}};
+  if (has_quaternion(space)) return normalized(se3(n.data()));
   throw error_at(graph, graph.vertex_line[v],
                  graph.type_of_vertex(v).tag + " is no pose that a trajectory can have");
 }

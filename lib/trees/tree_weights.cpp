@@ -9,56 +9,29 @@
 namespace sg {
 namespace {
 
-// Rows and columns of an information matrix.
-struct Block {
-  int first;
-  int size;  // 0: there is none
-};
-
-struct Measured {
-  std::string_view tag;
-  int skip;  // numbers before the information
-  int dim;   // of the information
-  Block translation;
-  Block rotation;
-  double rotation_scale = 1;  // to radians^-2; half-angles carry a quarter
-};
-
-constexpr std::array measured{
-    Measured{"EDGE_SE2", 3, 3, {0, 2}, {2, 1}},
-    Measured{"EDGE_SE2_OFFSET", 3, 3, {0, 2}, {2, 1}},
-    Measured{"EDGE_SE3:QUAT", 7, 6, {0, 3}, {3, 3}, 0.25},
-    Measured{"EDGE_SE3_OFFSET", 7, 6, {0, 3}, {3, 3}, 0.25},
-    Measured{"EDGE_SE3:EXPMAP", 7, 6, {3, 3}, {0, 3}},
-    Measured{"EDGE_SE2_XY", 2, 2, {0, 2}, {0, 0}},
-    Measured{"EDGE_SE2_POINTXY_OFFSET", 2, 2, {0, 2}, {0, 0}},
-    Measured{"EDGE_POINTXY", 2, 2, {0, 2}, {0, 0}},
-    Measured{"EDGE_SE3_TRACKXYZ", 3, 3, {0, 3}, {0, 0}},
-    Measured{"EDGE_POINTXYZ", 3, 3, {0, 3}, {0, 0}},
-};
-
-const Measured& measured_type(const Graph& graph, Index e) {
-  const std::string& tag = graph.type_of_edge(e).tag;
-  const auto it = std::find_if(measured.begin(), measured.end(),
-                               [&](const Measured& type) { return type.tag == tag; });
-  if (it == measured.end()) {
-    throw error_at(graph, graph.edge_line[e],
-                   tag + " measures neither translation nor rotation: only unit weights are known");
+// Where one vertex stands from the other: of an edge between two of them.
+const EdgeType& measured_type(const Graph& graph, Index e) {
+  const EdgeType& type = graph.type_of_edge(e);
+  if (type.arity != 2 || type.counted || facts(type.space).translation.size == 0) {
+    throw error_at(
+        graph, graph.edge_line[e],
+        type.tag + " measures neither translation nor rotation: only unit weights are known");
   }
-  return *it;
+  return type;
 }
 
-// The block's determinant, to the power of one over its size.
-double mean_information(const Measured& type, const Block& block,
+// The determinant of these rows and columns of the information, to the power of one over their
+// number.
+double mean_information(const EdgeType& type, const Axes& axes,
                         const std::vector<double>& numbers) {
   const auto w = [&](int i, int j) {
-    i += block.first, j += block.first;
+    i += axes.first, j += axes.first;
     if (i > j) std::swap(i, j);
-    return numbers[type.skip + i * type.dim - i * (i - 1) / 2 + (j - i)];
+    return numbers[type.measurement + i * type.dim - i * (i - 1) / 2 + (j - i)];
   };
-  if (block.size == 0) return 0;
-  if (block.size == 1) return std::max(0.0, w(0, 0));
-  if (block.size == 2) return std::sqrt(std::max(0.0, w(0, 0) * w(1, 1) - w(0, 1) * w(0, 1)));
+  if (axes.size == 0) return 0;
+  if (axes.size == 1) return std::max(0.0, w(0, 0));
+  if (axes.size == 2) return std::sqrt(std::max(0.0, w(0, 0) * w(1, 1) - w(0, 1) * w(0, 1)));
   const double det = w(0, 0) * (w(1, 1) * w(2, 2) - w(1, 2) * w(1, 2)) -
                      w(0, 1) * (w(0, 1) * w(2, 2) - w(1, 2) * w(0, 2)) +
                      w(0, 2) * (w(0, 1) * w(1, 2) - w(1, 1) * w(0, 2));
@@ -78,12 +51,14 @@ std::array<TreeLayer, 2> information_layers(const Graph& graph) {
   std::vector<double> numbers;
   for (Index e = 0; e < graph.edges(); ++e) {
     if (graph.edge(e).size() < 2) continue;
-    const Measured& type = measured_type(graph, e);
+    const EdgeType& type = measured_type(graph, e);
+    const SpaceRow& space = facts(type.space);
     edge_numbers(graph, e, numbers);
-    layers[0].weight[e] = mean_information(type, type.translation, numbers);
-    layers[1].weight[e] = mean_information(type, type.rotation, numbers) * type.rotation_scale;
-    layers[0].multiplicity = std::max<double>(layers[0].multiplicity, type.translation.size);
-    layers[1].multiplicity = std::max<double>(layers[1].multiplicity, type.rotation.size);
+    layers[0].weight[e] = mean_information(type, space.translation, numbers);
+    layers[1].weight[e] =
+        mean_information(type, space.rotation, numbers) * space.radian * space.radian;
+    layers[0].multiplicity = std::max<double>(layers[0].multiplicity, space.translation.size);
+    layers[1].multiplicity = std::max<double>(layers[1].multiplicity, space.rotation.size);
   }
   return layers;
 }

@@ -84,18 +84,16 @@ void disturb(Observation& observation, Sensor sensor, Random& random) {
   if (sensor == Sensor::bearing) observation.value[0] = wrap(observation.value[0]);
 }
 
-std::string_view observation_tag(Sensor sensor) {
-  constexpr std::array<std::string_view, 5> tags{"EDGE_PROJECT_XYZ2UV:EXPMAP", "EDGE_SE3_TRACKXYZ",
-                                                 "EDGE_PROJECT_DISPARITY", "EDGE_SE2_XY",
-                                                 "EDGE_BEARING_SE2_XY"};
-  return tags[static_cast<std::size_t>(sensor)];
+EdgeTag observation_type(Sensor sensor) {
+  return std::array{EdgeTag::project_xyz2uv, EdgeTag::se3_trackxyz, EdgeTag::project_disparity,
+                    EdgeTag::se2_xy, EdgeTag::bearing_se2_xy}[static_cast<std::size_t>(sensor)];
 }
 
 void observation_line(const LandmarkGraph& graph, Index pose, Index landmark,
                       const Observation& observation, Out& out) {
   const Id point = Id{landmark} + static_cast<Id>(graph.poses.size());
   const bool point_first = graph.sensor == Sensor::mono;
-  tag(out, observation_tag(graph.sensor));
+  tag(out, name(observation_type(graph.sensor)));
   id(out, point_first ? point : pose);
   id(out, point_first ? pose : point);
   if (!planar(graph.sensor)) id(out, 0);
@@ -114,16 +112,19 @@ void parameter_line(const LandmarkGraph& graph, Out& out) {
   const double f = optics.focal, c = principal_point(optics);
   switch (graph.sensor) {
     case Sensor::mono:
-      tag(out, "PARAMS_CAMERAPARAMETERS 0");
+      tag(out, name(ParamTag::pinhole));
+      id(out, 0);
       for (double x : {f, c, c, optics.baseline}) number(out, x);
       break;
     case Sensor::disparity:
-      tag(out, "PARAMS_CAMERACALIB 0");
+      tag(out, name(ParamTag::camera));
+      id(out, 0);
       numbers(out, SE3{optical, Vector3d::Zero()});
       for (double x : {f, f, c, c}) number(out, x);
       break;
     default:
-      tag(out, "PARAMS_SE3OFFSET 0");
+      tag(out, name(ParamTag::se3_offset));
+      id(out, 0);
       numbers(out, SE3{});
   }
   out.buffer += ' ';  // g2o takes a camera's line that ends in a digit for a broken one
@@ -135,7 +136,7 @@ void pose_line(const LandmarkGraph&, Index k, const SE2& pose, Out& out) {
 }
 void pose_line(const LandmarkGraph& graph, Index k, const SE3& pose, Out& out) {
   if (graph.sensor != Sensor::mono) return vertex_line(out, k, pose);
-  tag(out, "VERTEX_SE3:EXPMAP");
+  tag(out, name(VertexTag::expmap));
   id(out, k);
   numbers(out, pose);
   end_line(out);
@@ -156,7 +157,7 @@ void odometry_line(const LandmarkGraph& graph, Index k, const SE2& z, Out& out) 
 }
 void odometry_line(const LandmarkGraph& graph, Index k, const SE3& z, Out& out) {
   if (graph.sensor != Sensor::mono) return edge_line(out, k - 1, k, z, graph.odometry_noise);
-  tag(out, "EDGE_SE3:EXPMAP");
+  tag(out, name(EdgeTag::expmap));
   id(out, k - 1);
   id(out, k);
   numbers(out, z);
@@ -225,7 +226,7 @@ void write_vertices(const LandmarkGraph& graph, const Odometry<Pose>& motions, O
       point = act(estimate[middle[l]], act(inverse(true_pose<Pose>(graph, middle[l])), point));
       for (double& x : point) x += normal(random, graph.guess_noise);
     }
-    tag(out, planar(graph.sensor) ? "VERTEX_XY" : "VERTEX_TRACKXYZ");
+    tag(out, name(planar(graph.sensor) ? VertexTag::xy : VertexTag::trackxyz));
     id(out, Id{n} + l);
     for (const double x : point) number(out, x);
     end_line(out);

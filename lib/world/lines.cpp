@@ -72,21 +72,21 @@ void diagonal_information(Out& out, const double* diagonal, int size) {
 }
 
 void vertex_line(Out& out, Id vertex, const SE2& pose) {
-  tag(out, "VERTEX_SE2");
+  tag(out, name(VertexTag::se2));
   id(out, vertex);
   numbers(out, pose);
   end_line(out);
 }
 
 void vertex_line(Out& out, Id vertex, const SE3& pose) {
-  tag(out, "VERTEX_SE3:QUAT");
+  tag(out, name(VertexTag::se3));
   id(out, vertex);
   numbers(out, pose);
   end_line(out);
 }
 
 void edge_line(Out& out, Id a, Id b, const SE2& z, const PoseNoise& noise) {
-  tag(out, "EDGE_SE2");
+  tag(out, name(EdgeTag::se2));
   id(out, a);
   id(out, b);
   numbers(out, z);
@@ -96,7 +96,7 @@ void edge_line(Out& out, Id a, Id b, const SE2& z, const PoseNoise& noise) {
 }
 
 void edge_line(Out& out, Id a, Id b, const SE3& z, const PoseNoise& noise) {
-  tag(out, "EDGE_SE3:QUAT");
+  tag(out, name(EdgeTag::se3));
   id(out, a);
   id(out, b);
   numbers(out, z);

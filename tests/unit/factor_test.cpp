@@ -53,10 +53,13 @@ Instance random_instance(const Model& model) {
   if (model.measurement == 7) Eigen::Map<Eigen::Vector4d>(z.data() + 3).normalize();
   std::vector<std::vector<double>> params;
   std::vector<const double*> pointers;
-  for (ParamKind kind : model.params) {
-    std::vector<double> param(param_size(kind));
+  for (ParamTag type : model.params) {
+    std::vector<double> param(row(type).numbers);
     for (double& number : param) number = uniform(0.1, 0.9);
-    if (param.size() >= 7) Eigen::Map<Eigen::Vector4d>(param.data() + 3).normalize();
+    if (param.size() >= 7) {  // turned so little that landmarks stay ahead
+      Eigen::Map<Eigen::Vector3d>(param.data() + 3) *= 0.2;
+      Eigen::Map<Eigen::Vector4d>(param.data() + 3).normalize();
+    }
     params.push_back(param);
   }
   for (const auto& param : params) pointers.push_back(param.data());

@@ -191,7 +191,7 @@ TEST_CASE("a wrong line is named with its cause", "[graph]") {
   CHECK(cause("VERTEX_SE2 9223372036854775808 0 0 0\n") ==
         "test.g2o:1: '9223372036854775808' is beyond 64 bits, too large for a vertex id");
   CHECK(cause("NONSENSE 1 2\n") ==
-        "test.g2o:1: unknown tag 'NONSENSE' (--vertex and --edge teach a new one)");
+        "test.g2o:1: unknown tag 'NONSENSE' (--vertex, --edge and --params teach a new one)");
   CHECK(cause("VERTEX_SE2 9223372036854775807 0 0 0\n").empty());
 }
 

@@ -35,12 +35,12 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
   { head -n 19 walk.g2o; printf 'EDGE_SE2 4'; } >in.g2o
   refuse "20: the line ends before a vertex id"
   { head -n 19 walk.g2o; printf 'EDGE_S'; } >in.g2o
-  refuse "20: unknown tag 'EDGE_S' (--vertex and --edge teach a new one)"
+  refuse "20: unknown tag 'EDGE_S' (--vertex, --edge and --params teach a new one)"
 }
 
 @test "an unknown tag" {
   { cat walk.g2o; echo 'EDGE_MINE 0 1 5'; } >in.g2o
-  refuse "21: unknown tag 'EDGE_MINE' (--vertex and --edge teach a new one)"
+  refuse "21: unknown tag 'EDGE_MINE' (--vertex, --edge and --params teach a new one)"
   sg-check --edge EDGE_MINE:2 in.g2o
 }
 
@@ -81,7 +81,7 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
   printf 'VERTEX_SE2 0 0 \0 0\n' >in.g2o
   refuse "1: '?' is not a number"
   printf '\001\002\0\003\377 1 2' >in.g2o
-  fails 1 "sg-info: in.g2o:1: unknown tag '????"$'\377'"' (--vertex and --edge teach a new one)" sg-info in.g2o
+  fails 1 "sg-info: in.g2o:1: unknown tag '????"$'\377'"' (--vertex, --edge and --params teach a new one)" sg-info in.g2o
 }
 
 @test "damaged compressed files" {
