@@ -201,7 +201,7 @@ void check_converged(const sg::Command& command, const Options& options,
   throw sg::computation_error(
       cause + ", from " + sg::format_number(result.initial_chi2) +
       "; nothing is written (--keep would): try " +
-      (options.gauss_newton ? "it without --gn, " : "") +
+      (options.gauss_newton ? "it without --gn, " : "--gn, ") +
       (options.from_edges ? "the file's start (without --init)" : "--init") +
       ", --kernel cauchy:1, or more iterations (-i N)");
 }

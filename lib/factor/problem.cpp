@@ -168,11 +168,13 @@ void lay_out_values(Problem& problem) {
 // degenerate (all at the origin), at composed ones.
 bool is_free(const Problem& problem) {
   const Graph& graph = *problem.graph;
-  bool anchored = false;
+  bool anchored = false, poses = false;
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (graph.fixed[v] && graph.role(v) == Role::pose) return false;
     anchored |= graph.fixed[v];
+    poses |= graph.role(v) == Role::pose;
   }
+  if (anchored && !poses) return false;
   for (Index e = 0; e < graph.edges(); ++e) anchored |= is_anchor(problem, e);
   if (!anchored) return true;
   return !holds_gauge(problem, start_values(problem)) &&

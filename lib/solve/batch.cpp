@@ -17,11 +17,10 @@ namespace sg {
 namespace {
 
 constexpr double first_lambda = 1e-4;
-constexpr double least_lambda = 1e-12;
+constexpr double least_lambda = 1e-20;
 constexpr double largest_lambda = 1e12;
-// With QR: what is ill-conditioned is damped away by what is small beside the rest.
+// Of what is ill-conditioned: more damps away what little holds it.
 constexpr double first_lambda_by_qr = 1e-14;
-constexpr double least_lambda_by_qr = 1e-20;
 
 constexpr double flat = 1e-14;  // cosine of the angle between a column of A and what is left of b
 constexpr double rounding = std::numeric_limits<double>::epsilon();
@@ -190,11 +189,10 @@ bool gauss_newton(Run& run) {
 // lambda and how it moves.
 struct Damping {
   double lambda = first_lambda;
-  double least = least_lambda;
   double growth = 2;
 
   void gained(double ratio) {
-    lambda = std::max(least, lambda * std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3)));
+    lambda = std::max(least_lambda, lambda * std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3)));
     growth = 2;
   }
   void lost() {
@@ -220,7 +218,7 @@ bool levenberg_marquardt(Run& run) {
   eliminate_start(run);
   if (is_flat(run)) return true;
   Damping damping;
-  if (result.by_qr) damping = {first_lambda_by_qr, least_lambda_by_qr};
+  if (result.by_qr) damping.lambda = first_lambda_by_qr;
   std::vector<double> added(run.problem.step_at.back());
   bool stale = false;  // the system is not that of the values
   while (result.iterations < run.options.iterations && damping.lambda < largest_lambda) {

@@ -100,15 +100,15 @@ chain() {
   run sg-solve 77-long-steps-tight.g2o -o solved.g2o
   [ "$status" -eq 0 ]
   [ -z "$output" ]
-  for call in -q --gn "--backend cholmod" "--backend qr" "--gn --init"; do
+  for call in -q --gn "--backend cholmod" "--gn --backend qr" "--gn --init"; do
     awk -v x="$(sg-solve $call 77-long-steps-tight.g2o | sg-solve --chi2)" 'BEGIN { exit !(x < 1e-6) }'
   done
   # Its loop does not close: what is left is the same for all.
-  sed 's/^EDGE_SE2 5 2 20000 0/EDGE_SE2 5 2 20000.00001 0/' 77-long-steps-tight.g2o > open.g2o
+  sed 's/^EDGE_SE2 5 2 20000 0/EDGE_SE2 5 2 20100 0/' 77-long-steps-tight.g2o > open.g2o
   want=$(chi2 sg-solve open.g2o)
   awk -v x="$want" 'BEGIN { exit !(x > 1) }'
   near "$(chi2 sg-solve --gn open.g2o)" "$want" 1e-6
-  near "$(chi2 sg-solve --backend qr open.g2o)" "$want" 1e-6
+  near "$(chi2 sg-solve --gn --backend qr open.g2o)" "$want" 1e-6
 }
 
 @test "a long chain is sound; what is loose beside it is named, and nothing else" {
