@@ -10,14 +10,14 @@ JOBS   ?= $(shell nproc)
 build_packages := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
 	libcairo2-dev libspectra-dev pkg-config
-test_packages  := catch2 bats mandoc graphviz zstd gzip
-lint_packages  := clang-format clang-tidy mandoc git
+test_packages  := catch2 bats python3 mandoc graphviz zstd gzip
+lint_packages  := clang-format clang-tidy python3 mandoc git
 bench_packages := libbenchmark-dev
 fuzz_packages  := clang libclang-rt-14-dev
 plot_packages  := gnuplot-nox graphviz
 
 .DEFAULT_GOAL := build
-.PHONY: help deps build demo check install uninstall bench fuzz tsan paper orderings lint format clean
+.PHONY: help deps build demo check mutants install uninstall bench fuzz tsan paper orderings lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -59,6 +59,9 @@ check: build/packages/build build/packages/test ## build everything, and run eve
 	@$(call build,all)
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
+mutants: build/packages/build build/packages/test build/packages/lint ## break the sources in 400 places, one at a time, and list what no test notices
+	@nice tests/mutants/run --jobs $(JOBS) $(MUTANTS)
+
 install: build ## install commands, man pages, and the library for CMake and pkg-config (PREFIX=...)
 	@cmake --install $(BUILD) --prefix $(PREFIX)
 
@@ -98,6 +101,7 @@ lint: build/packages/build build/packages/test build/packages/lint ## check styl
 	@$(call configure,-DSGTOOLS_TESTS=ON)
 	@clang-format --dry-run --Werror $(SOURCES)
 	@tests/layers
+	@tests/lint_tests
 	@tests/pages
 	@tests/tidy $(BUILD) $(JOBS)
 

@@ -251,7 +251,8 @@ void run(const sg::Command& command, const Options& options) {
   sg::Values values = options.from_edges ? sg::initial_values(problem) : sg::start_values(problem);
   if (options.chi2) {
     sg::Output output(options.output.path);
-    output.write(sg::format_number(sg::chi2(problem, values, parse_kernel(options.kernel))) + "\n");
+    output.write(sg::format_number(sg::finite_chi2(problem, values, parse_kernel(options.kernel))) +
+                 "\n");
     output.commit();
   } else if (options.runs > 0) {
     print_times(options, problem, values);

@@ -1,12 +1,10 @@
 #include "formats/isam.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <limits>
 
 #include "formats/euler.h"
 #include "formats/translate.h"
+#include "lib/geometry/information.h"
 
 namespace sg {
 namespace {
@@ -110,18 +108,6 @@ std::vector<bool> mentioned(const Graph& graph) {
   return result;
 }
 
-// R with R^T R = W: Cholesky's, or of a singular W the triangle of sqrt(D) V^T, W = V D V^T.
-template <int N>
-Eigen::Matrix<double, N, N> square_root(const Eigen::Matrix<double, N, N>& information) {
-  using Matrix = Eigen::Matrix<double, N, N>;
-  const Eigen::LLT<Matrix> cholesky(information);
-  if (cholesky.info() == Eigen::Success) return cholesky.matrixU();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
-  const Matrix root =
-      eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
-  return Eigen::HouseholderQR<Matrix>(root).matrixQR().template triangularView<Eigen::Upper>();
-}
-
 void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out) {
   auto rest = line_at(graph, graph.edge_line[e]);
   next_word(rest);
@@ -133,13 +119,14 @@ void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out
   append_number(out, read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
   if (type == EdgeTag::se3) {
     translate_quaternion_pose(rest, out);
-    return append_triangle<6>(out, square_root<6>(to_euler_information(read_symmetric<6>(rest))));
+    return append_triangle<6>(
+        out, triangular_square_root(to_euler_information(read_symmetric<6>(rest))));
   }
   if (point) read_id(rest, "a parameter id");
   const int numbers = type == EdgeTag::se2_xy ? 2 : 3;
   copy_numbers(rest, numbers, out);
-  if (numbers == 2) return append_triangle<2>(out, square_root<2>(read_symmetric<2>(rest)));
-  append_triangle<3>(out, square_root<3>(read_symmetric<3>(rest)));
+  if (numbers == 2) return append_triangle<2>(out, triangular_square_root(read_symmetric<2>(rest)));
+  append_triangle<3>(out, triangular_square_root(read_symmetric<3>(rest)));
 }
 
 // What to take off a landmark's id so that reading gives it back; 0 where that cannot be.

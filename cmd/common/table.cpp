@@ -63,6 +63,7 @@ std::string json_of_cell(const Cell& cell) {
 
 std::vector<std::string> names_of(const std::vector<Heading>& columns) {
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const auto& column : columns) names.push_back(column.name);
   return names;
 }
@@ -79,8 +80,9 @@ std::string meanings(const std::vector<NamedTable>& tables) {
     std::size_t width = 0;
     for (const auto& column : columns) width = std::max(width, column.name.size());
     for (const auto& [name, what, needs] : columns) {
-      all += name + std::string(width + 2 - name.size(), ' ') + what;
-      all += needs.empty() ? "\n" : " (with " + needs + ")\n";
+      all.append(name).append(width + 2 - name.size(), ' ').append(what);
+      if (!needs.empty()) all.append(" (with ").append(needs).append(")");
+      all += '\n';
     }
   }
   return all;

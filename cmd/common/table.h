@@ -74,6 +74,7 @@ struct Heading {
 template <class Row>
 std::vector<Heading> headings(const std::vector<Column<Row>>& columns) {
   std::vector<Heading> result;
+  result.reserve(columns.size());
   for (const auto& column : columns) result.push_back({column.name, column.what, column.needs});
   return result;
 }
@@ -114,6 +115,7 @@ class Table {
 
   void row(Row row) {
     std::vector<Cell> cells;
+    cells.reserve(makers_.size());
     for (const auto& make : makers_) cells.push_back(make(row));
     write_row(names_, cells, json_, output_);
   }

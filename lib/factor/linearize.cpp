@@ -60,6 +60,12 @@ void reweigh(const Kernel& kernel, int dim, int columns, double* block) {
   std::for_each(block, block + dim * (columns + 1), [&](double& number) { number *= scale; });
 }
 
+Error error_of_edge(const Problem& problem, Index e, const std::string& cause) {
+  const Graph& graph = *problem.graph;
+  return {Fault::computation, graph.file, line_number(graph, graph.edge_line[e]),
+          graph.type_of_edge(e).tag + cause};
+}
+
 }  // namespace
 
 int block_rows(const Problem& problem, Index r) {
@@ -125,13 +131,11 @@ void check_row(const Problem& problem, Index r, std::span<const double> block) {
   bool fine = true;
   for (double number : block) fine &= std::abs(number) <= largest_entry;  // false for NaN, too
   if (fine) return;
-  const Graph& graph = *problem.graph;
   const bool finite = std::ranges::all_of(block, [](double x) { return std::isfinite(x); });
-  throw Error(
-      Fault::computation, graph.file, line_number(graph, graph.edge_line[r]),
-      graph.type_of_edge(r).tag +
-          (finite ? " weighs too much to calculate with: its information or its error is too large"
-                  : " has no derivative at this estimate"));
+  throw error_of_edge(
+      problem, r,
+      finite ? " weighs too much to calculate with: its information or its error is too large"
+             : " has no derivative at this estimate");
 }
 
 void linearize(const Problem& problem, const Values& values, const Kernel& kernel,
@@ -162,6 +166,20 @@ double chi2(const Problem& problem, const Values& values, const Kernel& kernel) 
   for (Index e = 0; e < problem.graph->edges(); ++e) {
     sum += rho(kernel, edge_chi2(problem, values, e));
   }
+  return sum;
+}
+
+double finite_edge_chi2(const Problem& problem, const Values& values, Index e) {
+  const double value = edge_chi2(problem, values, e);
+  if (!std::isfinite(value))
+    throw error_of_edge(problem, e, " has no finite error at this estimate");
+  return value;
+}
+
+double finite_chi2(const Problem& problem, const Values& values, const Kernel& kernel) {
+  double sum = 0;
+  for (Index e = 0; e < problem.graph->edges(); ++e)
+    sum += rho(kernel, finite_edge_chi2(problem, values, e));
   return sum;
 }
 

@@ -58,4 +58,9 @@ void linearize(const Problem& problem, const Values& values, const Kernel& kerne
 double edge_chi2(const Problem& problem, const Values& values, Index e);
 double chi2(const Problem& problem, const Values& values, const Kernel& kernel = {});
 
+// The same for who prints them: throw a computation Error at the line of the first edge whose e' W e
+// is not finite.
+double finite_edge_chi2(const Problem& problem, const Values& values, Index e);
+double finite_chi2(const Problem& problem, const Values& values, const Kernel& kernel = {});
+
 }  // namespace sg

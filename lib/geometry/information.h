@@ -1,24 +1,34 @@
-// Information matrices of sums: what is known of d1 + d2 when d1 and d2 are independent.
+// What is done with information matrices, symmetric and positive semidefinite: what is known of a sum, square roots, and
+// systems that may be singular. The decompositions behind it take seconds to compile, and are compiled here alone.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 namespace sg {
 
-// (A^-1 + B^-1)^-1, without the inverses: A (A + B)^+ B, which also holds for singular A and B (the
-// parallel sum of Anderson and Duffin, 1969). A, B symmetric and positive semidefinite.
-template <int N>
-Eigen::Matrix<double, N, N> parallel_sum(const Eigen::Matrix<double, N, N>& a,
-                                         const Eigen::Matrix<double, N, N>& b) {
-  using Matrix = Eigen::Matrix<double, N, N>;
-  const Matrix sum = a + b;
-  const Eigen::LLT<Matrix> cholesky(sum);
-  const bool regular = cholesky.info() == Eigen::Success && cholesky.rcond() > 1e-14;
-  const Matrix quotient =
-      regular ? Matrix(cholesky.solve(b)) : Matrix(sum.completeOrthogonalDecomposition().solve(b));
-  const Matrix product = a * quotient;
-  return (product + product.transpose()) / 2;
-}
+// (A^-1 + B^-1)^-1, without the inverses: A (A + B)^+ B, which also holds for singular A and B (the parallel sum of
+// Anderson and Duffin, 1969). It is what is known of d1 + d2 when d1 and d2 are independent.
+Eigen::Matrix3d parallel_sum(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
+Eigen::Matrix<double, 6, 6> parallel_sum(const Eigen::Matrix<double, 6, 6>& a,
+                                         const Eigen::Matrix<double, 6, 6>& b);
+
+// Up to six dimensions, those of a motion in space; no memory of their own.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+
+// A^+ b: of all x that bring A x nearest to b the shortest.
+SmallVector least_norm_solution(const SmallMatrix& a, const SmallVector& b);
+
+// U with U' U = W: Cholesky's triangle where W is regular, sqrt(D) V' where it is not (W = V D V').
+struct SquareRoot {
+  SmallMatrix U;
+  bool regular;
+  double
+      least;  // of a singular W: the least of its eigenvalues, over the largest one's size; below 0 they count as 0
+};
+SquareRoot square_root(const SmallMatrix& W);
+
+// The upper triangle R with R' R = W.
+SmallMatrix triangular_square_root(const SmallMatrix& W);
 
 }  // namespace sg

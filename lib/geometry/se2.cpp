@@ -72,7 +72,7 @@ Eigen::Vector3d log(const SE2& a) {
 UncertainSE2 compose(const UncertainSE2& a, const UncertainSE2& b) {
   const Eigen::Matrix3d back = adjoint(b.mean);  // inverse of Ad(b^-1)
   const Eigen::Matrix3d moved = back.transpose() * a.information * back;
-  return {compose(a.mean, b.mean), parallel_sum<3>(moved, b.information)};
+  return {compose(a.mean, b.mean), parallel_sum(moved, b.information)};
 }
 
 UncertainSE2 inverse(const UncertainSE2& a) {

@@ -168,7 +168,7 @@ Vector3d roll_pitch_yaw(const Quaterniond& q) {
 UncertainSE3 compose(const UncertainSE3& a, const UncertainSE3& b) {
   const Matrix6d back = quaternion_adjoint(b.mean);  // inverse of A(b^-1)
   const Matrix6d moved = back.transpose() * a.information * back;
-  return {compose(a.mean, b.mean), parallel_sum<6>(moved, b.information)};
+  return {compose(a.mean, b.mean), parallel_sum(moved, b.information)};
 }
 
 UncertainSE3 inverse(const UncertainSE3& a) {

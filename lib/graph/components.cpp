@@ -1,6 +1,7 @@
 #include "lib/graph/components.h"
 
 #include <boost/pending/disjoint_sets.hpp>
+#include <cassert>
 
 namespace sg {
 
@@ -9,6 +10,7 @@ Components components(const Graph& graph) {
 }
 
 Components components(const Graph& graph, const std::vector<bool>& edge_removed) {
+  assert(edge_removed.size() == graph.edge_type.size());
   const Index n = graph.vertices();
   std::vector<Index> rank(n);
   std::vector<Index> parent(n);

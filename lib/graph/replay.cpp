@@ -1,6 +1,7 @@
 #include "lib/graph/replay.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace sg {
 namespace {
@@ -122,6 +123,7 @@ std::vector<Index> segments(const Graph& graph, const PoseIndex& poses) {
 }
 
 Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs) {
+  assert(min_obs >= 1 && poses.index.size() == graph.id.size());
   Replay result;
   result.steps = static_cast<Index>(poses.pose.size());
   result.vertex_step = poses.index;

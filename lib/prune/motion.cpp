@@ -1,6 +1,5 @@
 #include "lib/prune/motion.h"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "lib/geometry/information.h"
@@ -64,8 +63,7 @@ Uncertain fuse_local(const std::vector<Motion>& motions) {
       gradient += jacobian.transpose() * z.information * error;
       result.information += jacobian.transpose() * z.information * jacobian;
     }
-    const auto change =
-        (-result.information.completeOrthogonalDecomposition().solve(gradient)).eval();
+    const decltype(gradient) change = -least_norm_solution(result.information, gradient);
     result.mean = compose(result.mean, small_motion(change));
     if (change.norm() < fusion_tolerance) break;
   }
@@ -87,7 +85,7 @@ ExpmapMotion fuse_world(const std::vector<Motion>& motions, const SE3& first_pos
       gradient += jacobian.transpose() * weight * error;
       information += jacobian.transpose() * weight * jacobian;
     }
-    const Vector6d change = -information.completeOrthogonalDecomposition().solve(gradient);
+    const Vector6d change = -least_norm_solution(information, gradient);
     result.mean = compose(exp(Vector6d(from_world * change)), result.mean);
     result.information = swapped(information);
     if (change.norm() < fusion_tolerance) break;
@@ -131,7 +129,7 @@ Motion compose(const Motion& first, const Motion& second) {
     return compose(*a, std::get<UncertainSE3>(second));
   const auto& a = std::get<ExpmapMotion>(first);
   const auto& b = std::get<ExpmapMotion>(second);
-  return ExpmapMotion{compose(a.mean, b.mean), parallel_sum<6>(a.information, b.information)};
+  return ExpmapMotion{compose(a.mean, b.mean), parallel_sum(a.information, b.information)};
 }
 
 Motion inverse(const Motion& motion) {

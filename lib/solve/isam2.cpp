@@ -61,7 +61,7 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
 double chi2(const Isam2& isam) {
   double sum = 0;
   for (Index e = 0; e < isam.problem->graph->edges(); ++e) {
-    if (isam.tree.row_clique[e] >= 0) sum += edge_chi2(*isam.problem, isam.estimate, e);
+    if (isam.tree.row_clique[e] >= 0) sum += finite_edge_chi2(*isam.problem, isam.estimate, e);
   }
   return sum;
 }

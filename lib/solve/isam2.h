@@ -129,7 +129,7 @@ struct Isam2Report {
 // least and all of them there; then brings the estimate up to date. Throws check_row's Error.
 Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<const Index> rows);
 
-// chi-square of the rows that are there, at the estimate.
+// chi-square of the rows that are there, at the estimate. Throws finite_edge_chi2's Error.
 double chi2(const Isam2& isam);
 
 // The pattern of all that will ever come.

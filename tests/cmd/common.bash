@@ -1,4 +1,9 @@
 # For every command test: `load ../common`. $BIN holds the executables (ctest sets it).
+#
+# One check a line: a failing line fails the test, but in the middle of one neither `! command` nor the first half of
+# `this && that` does (tests/lint_tests finds them). `run -STATUS command` says how a command has to end.
+bats_require_minimum_version 1.5.0
+set -o pipefail  # a command that fails fails its pipeline, whoever reads it
 BIN=${BIN:-$BATS_TEST_DIRNAME/../../../build/release/bin}
 PATH=$BIN:$PATH
 TESTDATA=$BATS_TEST_DIRNAME/../../../testdata
@@ -13,7 +18,13 @@ fails() {
   local status=$1 message=$2 said code=0
   shift 2
   said=$("$@" 2>&1 >/dev/null) || code=$?
-  [ "$code" -eq "$status" ] && [ "$said" = "$message" ] && return
+  if [ "$code" = "$status" ] && [ "$said" = "$message" ]; then return; fi
   printf 'status %s, said: %s\nwanted %s, %s\n' "$code" "$said" "$status" "$message" >&2
   return 1
+}
+
+# near A B [BOUND]: two numbers that differ by no more than BOUND (1e-9) of one plus their size.
+near() {
+  [ -n "$1" ]
+  awk -v a="$1" -v b="$2" -v bound="${3:-1e-9}" 'BEGIN {d = a - b; most = bound * (1 + (b < 0 ? -b : b)); exit !(d * d <= most * most)}'
 }

@@ -1,16 +1,16 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
 #include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "formats/formats.h"
 #include "lib/order/order.h"
 #include "lib/order/region.h"
+#include "tests/unit/common.h"
+
+using namespace sg::test;
 
 namespace {
 
@@ -18,34 +18,12 @@ using sg::Index;
 using sg::Order;
 using sg::Pattern;
 
-// Rows of one to four variables, of dimension 1 to 6; sparse enough for a tree with branches.
-Pattern odd_pattern(std::mt19937& random, Index n) {
-  Pattern pattern;
-  for (Index j = 0; j < n; ++j) pattern.dim.push_back(1 + static_cast<int>(random() % 6));
-  for (auto rows = n == 0 ? 0 : random() % (2 * n); rows > 0; --rows) {
-    for (auto k = 1 + random() % 4; k > 0; --k) {
-      const auto j = static_cast<Index>(random() % n);
-      const auto row = pattern.rows.open();
-      if (std::find(row.begin(), row.end(), j) == row.end()) pattern.rows.items.push_back(j);
-    }
-    pattern.rows.close();
-  }
-  return pattern;
-}
-
-Order shuffled(std::mt19937& random, Index n) {
-  Order order(n);
-  std::iota(order.begin(), order.end(), 0);
-  std::shuffle(order.begin(), order.end(), random);
-  return order;
-}
-
 }  // namespace
 
 TEST_CASE("what a region gains by reordering, the whole elimination gains", "[best]") {
-  std::mt19937 random(1);
+  Random random(1);
   for (int trial = 0; trial < 2000; ++trial) {
-    const auto n = static_cast<Index>(1 + random() % 40);
+    const Index n = draw(random, 1, 40);
     const Pattern pattern = odd_pattern(random, n);
     const Order start =
         trial % 2 == 0 ? shuffled(random, n) : sg::elimination_order("amd", pattern);
@@ -53,8 +31,8 @@ TEST_CASE("what a region gains by reordering, the whole elimination gains", "[be
     REQUIRE(before.ec == sg::elimination_complexity(pattern, start));
     REQUIRE(before.ec == sg::elimination_complexity(pattern, before.order));
 
-    const auto root = static_cast<Index>(random() % n);
-    const auto size = static_cast<Index>(1 + random() % n);
+    const Index root = draw(random, 0, n - 1);
+    const Index size = draw(random, 1, n);
     const sg::Region part = sg::region(before, root, size);
     const auto inside = static_cast<Index>(part.inside.size());
     REQUIRE(inside == std::min(size, root - before.first[root] + 1));
@@ -62,7 +40,7 @@ TEST_CASE("what a region gains by reordering, the whole elimination gains", "[be
     Order local(part.pattern.variables());
     std::iota(local.begin(), local.end(), 0);
     CHECK(sg::region_ec(part, local) == part.ec);
-    std::shuffle(local.begin(), local.begin() + inside, random);
+    for (Index k = inside; k > 1; --k) std::swap(local[k - 1], local[draw(random, 0, k - 1)]);
     const std::vector<Index> subtree = sg::reordered_subtree(before, part, local);
     Order after = before.order;
     std::copy(subtree.begin(), subtree.end(), after.begin() + before.first[root]);
@@ -72,13 +50,13 @@ TEST_CASE("what a region gains by reordering, the whole elimination gains", "[be
 }
 
 TEST_CASE("best is never above another method, and says what it found", "[best]") {
-  std::mt19937 random(2);
+  Random random(2);
   for (int trial = 0; trial < 40; ++trial) {
-    const auto n = static_cast<Index>(trial < 3 ? trial : random() % 80);
+    const Index n = trial < 3 ? trial : draw(random, 0, 79);
     const Pattern pattern = odd_pattern(random, n);
     sg::OrderOptions options;
     options.seed = static_cast<std::uint64_t>(trial);
-    options.budget.tries = trial % 4 == 0 ? 0 : static_cast<int>(random() % 100);
+    options.budget.tries = trial % 4 == 0 ? 0 : draw(random, 0, 99);
     if (trial % 3 == 0) {
       const Order some = shuffled(random, n);
       options.last.assign(some.begin(), some.begin() + n / 4);
@@ -100,8 +78,8 @@ TEST_CASE("best is never above another method, and says what it found", "[best]"
   }
 }
 
-TEST_CASE("more tries are never worse, and seconds are kept", "[best]") {
-  std::mt19937 random(3);
+TEST_CASE("more tries are never worse, nor are seconds", "[best]") {
+  Random random(3);
   const Pattern pattern = odd_pattern(random, 300);
   const auto ec = [&](int tries, double seconds) {
     sg::OrderOptions options;
@@ -116,15 +94,11 @@ TEST_CASE("more tries are never worse, and seconds are kept", "[best]") {
 }
 
 TEST_CASE("best improves on every method on public graphs", "[best][data]") {
-  const char* data = std::getenv("SGTOOLS_DATA");
-  if (!data) {
-    std::cout << "skipped: best on public graphs (SGTOOLS_DATA is not set)\n";
-    return;
-  }
+  const auto folder = public_graphs();
+  if (!folder) return;
   for (const char* file : {"smallGrid3D.g2o", "intel.g2o", "manhattan.g2o"}) {
     INFO(file);
-    const Pattern pattern =
-        sg::graph_pattern(sg::read_graph(std::string(data) + "/" + file)).pattern;
+    const Pattern pattern = sg::graph_pattern(sg::read_graph(*folder + "/" + file)).pattern;
     std::string last;
     sg::OrderOptions options;
     options.report = [&](const sg::Improvement& improvement) { last = improvement.how; };

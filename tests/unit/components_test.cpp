@@ -1,35 +1,34 @@
 #include "lib/graph/components.h"
 
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "formats/formats.h"
 #include "lib/graph/cut.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
+using namespace sg::test;
 
 namespace {
 
 // Poses with ids 0..n-1, landmarks after them, and random edges of one to four ends.
-Graph random_graph(std::mt19937& bits) {
-  const auto draw = [&](int low, int high) {
-    return std::to_string(std::uniform_int_distribution<int>(low, high)(bits));
-  };
-  const int poses = 1 + static_cast<int>(bits() % 8);
-  const int landmarks = 1 + static_cast<int>(bits() % 4);
+Graph random_graph(Random& random) {
+  const auto id = [&](int low, int high) { return std::to_string(draw(random, low, high)); };
+  const int poses = draw(random, 1, 8);
+  const int landmarks = draw(random, 1, 4);
   const int last = poses + landmarks - 1;
   std::string text;
   for (int k = 0; k < poses; ++k) text += "VERTEX_SE2 " + std::to_string(k) + " 0 0 0\n";
   for (int k = poses; k <= last; ++k) text += "VERTEX_XY " + std::to_string(k) + " 0 0\n";
-  for (auto e = bits() % 8; e-- > 0;) {
-    text += "EDGE_SE2_LOTSOFXY " + draw(0, poses - 1);
-    const auto points = bits() % 4;
+  for (int e = draw(random, 0, 7); e > 0; --e) {
+    text += "EDGE_SE2_LOTSOFXY " + id(0, poses - 1);
+    const int points = draw(random, 0, 3);
     text += " " + std::to_string(points);
-    for (std::size_t k = 0; k < points; ++k) text += " " + draw(poses, last);
-    for (std::size_t k = 0; k < points; ++k) text += " 0 0";
-    text += "\nEDGE_SE2 " + draw(0, poses - 1) + " " + draw(0, poses - 1) + " 0 0 0 1 0 0 1 0 1\n";
+    for (int k = 0; k < points; ++k) text += " " + id(poses, last);
+    for (int k = 0; k < points; ++k) text += " 0 0";
+    text += "\nEDGE_SE2 " + id(0, poses - 1) + " " + id(0, poses - 1) + " 0 0 0 1 0 0 1 0 1\n";
   }
-  return read_graph_text(text_of(text), "random");
+  return graph_of(text);
 }
 
 // The definition: everything that can be reached along edges.
@@ -49,9 +48,9 @@ std::vector<bool> reachable(const Graph& graph, Index from) {
 }  // namespace
 
 TEST_CASE("components are what edges reach", "[components]") {
-  std::mt19937 bits(5);
+  Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
-    const Graph graph = random_graph(bits);
+    const Graph graph = random_graph(random);
     const Components parts = components(graph);
     const std::vector<Index> size = sizes(parts);
     Index largest = 0;
@@ -67,9 +66,9 @@ TEST_CASE("components are what edges reach", "[components]") {
 }
 
 TEST_CASE("parts hold no edge without its vertices", "[components]") {
-  std::mt19937 bits(6);
+  Random random(6);
   for (int trial = 0; trial < 200; ++trial) {
-    const Graph graph = random_graph(bits);
+    const Graph graph = random_graph(random);
     const PoseIndex poses = pose_index(graph);
     const auto last = static_cast<Index>(poses.pose.size()) - 1;
     const Part parts[] = {first_steps(graph, poses, last, 2), pose_range(graph, poses, 1, last),

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <numeric>
-#include <random>
 #include <set>
 
 #include "formats/formats.h"
@@ -15,22 +13,12 @@
 #include "lib/elim/node_elimination.h"
 #include "lib/elim/score.h"
 #include "lib/order/order.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
+using namespace sg::test;
 
 namespace {
-
-std::mt19937 random_bits(7);
-
-int uniform(int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random_bits);
-}
-
-Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows) {
-  Pattern pattern{std::move(dim), {}};
-  for (const auto& row : rows) pattern.rows.add(row);
-  return pattern;
-}
 
 std::vector<std::vector<Index>> rows_of(const Pattern& pattern) {
   std::vector<std::vector<Index>> rows;
@@ -39,29 +27,9 @@ std::vector<std::vector<Index>> rows_of(const Pattern& pattern) {
   return rows;
 }
 
-Order shuffled(Index n) {
-  Order order(n);
-  std::iota(order.begin(), order.end(), 0);
-  std::shuffle(order.begin(), order.end(), random_bits);
-  return order;
-}
-
-// Everything a graph file can lead to: no variables, no rows, rows without variables (all of them
-// fixed), unary rows, rows of many variables, the same row twice, parts that nothing connects.
-Pattern random_pattern(int max_dim = 6) {
-  const Index n = uniform(0, uniform(0, 3) == 0 ? 80 : 9);
-  std::vector<int> dim(n);
-  for (int& d : dim) d = uniform(1, max_dim);
-  const int row_count = n == 0 ? 0 : uniform(0, 2 * n);
-  const int max_arity = uniform(1, 5);
-  std::vector<std::vector<Index>> rows;
-  for (int r = 0; r < row_count; ++r) {
-    std::vector<Index> row = shuffled(n);
-    row.resize(std::min<Index>(n, uniform(0, 9) == 0 ? uniform(0, n) : uniform(0, max_arity)));
-    rows.push_back(row);
-    if (uniform(0, 4) == 0) rows.push_back(row);
-  }
-  return make_pattern(std::move(dim), rows);
+// Mostly small, and some larger.
+Pattern random_pattern(Random& random, int most_dim = 6) {
+  return odd_pattern(random, draw(random, 0, draw(random, 0, 3) == 0 ? 80 : 9), most_dim);
 }
 
 // Every scalar a variable of its own.
@@ -252,10 +220,8 @@ void require_as_cholmod(const Pattern& pattern, const Order& order) {
   REQUIRE(to_double(fast.flops) == flops);
 }
 
-// The public graphs, by ascending size; none where SGTOOLS_DATA is not set.
-std::vector<std::string> public_graphs() {
-  const char* folder = std::getenv("SGTOOLS_DATA");
-  if (!folder) return {};
+// The files of the public graphs, by ascending size.
+std::vector<std::string> by_size(const std::string& folder) {
   std::vector<std::pair<std::uintmax_t, std::string>> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     files.emplace_back(entry.file_size(), entry.path());
@@ -297,9 +263,10 @@ TEST_CASE("an order that is no permutation is refused", "[elim]") {
 }
 
 TEST_CASE("node elimination is that of sets of neighbours", "[elim]") {
+  Random random(1);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Pattern pattern = random_pattern();
-    const Order order = shuffled(pattern.variables());
+    const Pattern pattern = random_pattern(random);
+    const Order order = shuffled(random, pattern.variables());
     const auto steps = node_elimination(pattern, order);
     const auto by_sets = set_elimination(pattern, order);
     REQUIRE(steps.size() == by_sets.size());
@@ -312,16 +279,18 @@ TEST_CASE("node elimination is that of sets of neighbours", "[elim]") {
 }
 
 TEST_CASE("scores equal literal node elimination on odd random graphs", "[elim]") {
+  Random random(2);
   for (int trial = 0; trial < 5000; ++trial) {
-    const Pattern pattern = random_pattern();
-    require_as_literal(pattern, shuffled(pattern.variables()));
+    const Pattern pattern = random_pattern(random);
+    require_as_literal(pattern, shuffled(random, pattern.variables()));
   }
 }
 
 TEST_CASE("scores equal literal elimination of the expanded scalar graph", "[elim]") {
+  Random random(3);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern();
-    const Order order = shuffled(pattern.variables());
+    const Pattern pattern = random_pattern(random);
+    const Order order = shuffled(random, pattern.variables());
     Order scalar_order;
     const Pattern scalar = expand(pattern, order, scalar_order);
     const LiteralScore literal = literal_score(scalar, node_elimination(scalar, scalar_order));
@@ -335,31 +304,34 @@ TEST_CASE("scores equal literal elimination of the expanded scalar graph", "[eli
 }
 
 TEST_CASE("nnz and flops are CHOLMOD's", "[elim]") {
+  Random random(4);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern();
-    if (pattern.variables() > 0) require_as_cholmod(pattern, shuffled(pattern.variables()));
+    const Pattern pattern = random_pattern(random);
+    if (pattern.variables() > 0) require_as_cholmod(pattern, shuffled(random, pattern.variables()));
   }
 }
 
 TEST_CASE("adding an edge never lowers EC (Lemma 1)", "[elim]") {
+  Random random(5);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Pattern pattern = random_pattern();
-    const Order order = shuffled(pattern.variables());
+    const Pattern pattern = random_pattern(random);
+    const Order order = shuffled(random, pattern.variables());
     auto rows = rows_of(pattern);
-    std::vector<Index> added = shuffled(pattern.variables());
-    added.resize(std::min<Index>(pattern.variables(), uniform(1, 4)));
-    rows.insert(rows.begin() + uniform(0, static_cast<int>(rows.size())), added);
+    std::vector<Index> added = shuffled(random, pattern.variables());
+    added.resize(std::min<Index>(pattern.variables(), draw(random, 1, 4)));
+    rows.insert(rows.begin() + draw(random, 0, static_cast<int>(rows.size())), added);
     const Pattern larger = make_pattern(pattern.dim, rows);
     REQUIRE(elimination_complexity(pattern, order) <= elimination_complexity(larger, order));
   }
 }
 
 TEST_CASE("with scalar variables EC is the asymptotic Rose sum", "[elim]") {
+  Random random(6);
   // Rose: 1/2 sum d (d + 3) ~ 1/2 sum d^2; the paper drops the half. EC counts the column's own
   // entry too: sum (d + 1)^2 = 2 Rose - sum d + n, and sum d = nnz - n.
   for (int trial = 0; trial < 1000; ++trial) {
-    const Pattern pattern = random_pattern(1);
-    const Order order = shuffled(pattern.variables());
+    const Pattern pattern = random_pattern(random, 1);
+    const Order order = shuffled(random, pattern.variables());
     const Score counted = score(symbolic(pattern, order));
     Wide squares = 0;
     for (const auto& step : node_elimination(pattern, order)) {
@@ -374,17 +346,19 @@ TEST_CASE("with scalar variables EC is the asymptotic Rose sum", "[elim]") {
 }
 
 TEST_CASE("the Bayes tree costs no less than node by node", "[elim]") {
+  Random random(7);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Pattern pattern = random_pattern();
-    const Score counted = score(symbolic(pattern, shuffled(pattern.variables())));
+    const Pattern pattern = random_pattern(random);
+    const Score counted = score(symbolic(pattern, shuffled(random, pattern.variables())));
     REQUIRE(counted.ec_bt >= counted.ec);
   }
 }
 
 TEST_CASE("the Bayes tree is a tree over all variables, parents first", "[elim]") {
+  Random random(8);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern();
-    const Symbolic elimination = symbolic(pattern, shuffled(pattern.variables()));
+    const Pattern pattern = random_pattern(random);
+    const Symbolic elimination = symbolic(pattern, shuffled(random, pattern.variables()));
     const BayesTree tree = bayes_tree(elimination);
     std::vector<std::int64_t> frontal(tree.cliques(), 0);
     for (Index k = 0; k < pattern.variables(); ++k) {
@@ -399,9 +373,10 @@ TEST_CASE("the Bayes tree is a tree over all variables, parents first", "[elim]"
 }
 
 TEST_CASE("postorder and height are those of the tree", "[elim]") {
+  Random random(9);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern();
-    const Symbolic elimination = symbolic(pattern, shuffled(pattern.variables()));
+    const Pattern pattern = random_pattern(random);
+    const Symbolic elimination = symbolic(pattern, shuffled(random, pattern.variables()));
     const std::vector<Index> post = postorder(elimination.parent);
     std::vector<Index> rank(post.size(), -1);
     for (std::size_t k = 0; k < post.size(); ++k) rank[post[k]] = static_cast<Index>(k);
@@ -431,9 +406,9 @@ TEST_CASE("wide numbers print in full", "[elim]") {
 
 TEST_CASE("public graphs: scores equal literal node elimination under every ordering",
           "[elim][public]") {
-  const auto files = public_graphs();
-  if (files.empty()) WARN("skipped: SGTOOLS_DATA is not set");
-  for (const auto& file : files) {
+  const auto folder = public_graphs();
+  if (!folder) return;
+  for (const auto& file : by_size(*folder)) {
     const Graph graph = read_graph(file);
     const GraphPattern variables = graph_pattern(graph);
     const OrderOptions options = order_options(graph, variables);
@@ -447,9 +422,9 @@ TEST_CASE("public graphs: scores equal literal node elimination under every orde
 }
 
 TEST_CASE("public graphs: nnz and flops are CHOLMOD's under COLAMD", "[elim][public]") {
-  const auto files = public_graphs();
-  if (files.empty()) WARN("skipped: SGTOOLS_DATA is not set");
-  for (const auto& file : files) {
+  const auto folder = public_graphs();
+  if (!folder) return;
+  for (const auto& file : by_size(*folder)) {
     CAPTURE(file);
     const GraphPattern variables = graph_pattern(read_graph(file));
     require_as_cholmod(variables.pattern, elimination_order("colamd", variables.pattern));

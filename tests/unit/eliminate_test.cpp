@@ -3,27 +3,17 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
-#include <boost/random/uniform_real_distribution.hpp>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 
 #include "formats/formats.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
+#include "tests/unit/common.h"
+
+using namespace sg::test;
 
 namespace {
-
-using Random = boost::random::mt19937_64;
-
-int draw(Random& random, int least, int most) {
-  return boost::random::uniform_int_distribution<int>(least, most)(random);
-}
-double draw_real(Random& random) {
-  return boost::random::uniform_real_distribution<double>(-1, 1)(random);
-}
 
 struct System {
   sg::Pattern pattern;
@@ -36,7 +26,7 @@ void add_row(System& system, int height, const std::vector<sg::Index>& variables
   for (sg::Index j : variables) width += system.pattern.dim[j];
   system.pattern.rows.add(variables);
   system.linear.height.push_back(height);
-  for (int k = 0; k < height * width; ++k) system.linear.numbers.push_back(draw_real(random));
+  for (int k = 0; k < height * width; ++k) system.linear.numbers.push_back(uniform(random, -1, 1));
   system.linear.begin.push_back(static_cast<sg::Offset>(system.linear.numbers.size()));
 }
 
@@ -90,13 +80,6 @@ Dense dense(const System& system) {
   return result;
 }
 
-sg::Order random_order(Random& random, int n) {
-  sg::Order order(n);
-  for (int k = 0; k < n; ++k) order[k] = k;
-  for (int k = n - 1; k > 0; --k) std::swap(order[k], order[draw(random, 0, k)]);
-  return order;
-}
-
 Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& step) {
   return {step.data(), static_cast<Eigen::Index>(step.size())};
 }
@@ -113,7 +96,7 @@ struct DenseFront {
     front.l = l.data();
     front.u = u.data();
     const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(
-        front.n + 2, front.n, [&](Eigen::Index, Eigen::Index) { return draw_real(random); });
+        front.n + 2, front.n, [&](Eigen::Index, Eigen::Index) { return uniform(random, -1, 1); });
     full = root.transpose() * root;
   }
   double& at(int i, int j) {
@@ -166,7 +149,7 @@ TEST_CASE("kernels: Gram matrix and scattered sum, in either order", "[eliminate
     for (int height = 1; height < 9; ++height) {
       for (int width = 3; width < 25; ++width) {
         const Eigen::MatrixXd block = Eigen::MatrixXd::NullaryExpr(
-            height, width, [&](Eigen::Index, Eigen::Index) { return draw_real(random); });
+            height, width, [&](Eigen::Index, Eigen::Index) { return uniform(random, -1, 1); });
         std::vector<double> gram(width * width + sg::lane);
         std::vector<double> work(height * (width + sg::lane));
         kernel->gram(block.data(), height, width, gram.data(), work.data());
@@ -210,7 +193,7 @@ TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate
     const Eigen::VectorXd expected = solver.solve(full.a.transpose() * full.b);
 
     const int threads = 1 + trial % 3;
-    auto elimination = sg::plan_elimination(system.linear, random_order(random, n), threads);
+    auto elimination = sg::plan_elimination(system.linear, shuffled(random, n), threads);
     std::vector<double> step;
     for (int again = 0; again < 2; ++again) {
       REQUIRE(sg::eliminate(elimination, system.linear, damping).empty());
@@ -230,7 +213,7 @@ TEST_CASE("undetermined variables are named, the others solved", "[eliminate]") 
     const sg::Index loose = draw(random, 0, n - 1);
     System system = random_system(random, n, 2 * n, {loose});
     system.linear.pattern = &system.pattern;
-    auto elimination = sg::plan_elimination(system.linear, random_order(random, n));
+    auto elimination = sg::plan_elimination(system.linear, shuffled(random, n));
     CHECK(sg::eliminate(elimination, system.linear) == std::vector<sg::Index>{loose});
     std::vector<double> step;
     sg::back_substitute(elimination, step);
@@ -252,11 +235,11 @@ TEST_CASE("a chain that nothing anchors misses as many variables as it is free",
     std::copy_n(numbers, 10, block);
   }
   system.linear.pattern = &system.pattern;
-  auto elimination = sg::plan_elimination(system.linear, random_order(random, n));
+  auto elimination = sg::plan_elimination(system.linear, shuffled(random, n));
   CHECK(sg::eliminate(elimination, system.linear).size() == 1);
   add_row(system, 2, {n / 2}, random);
   system.linear.pattern = &system.pattern;
-  elimination = sg::plan_elimination(system.linear, random_order(random, n));
+  elimination = sg::plan_elimination(system.linear, shuffled(random, n));
   CHECK(sg::eliminate(elimination, system.linear).empty());
 }
 
@@ -265,7 +248,7 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
   for (int trial = 0; trial < 100; ++trial) {
     const int n = draw(random, 1, 50);
     const System system = random_system(random, n, draw(random, 0, 3 * n));
-    const sg::Order order = random_order(random, n);
+    const sg::Order order = shuffled(random, n);
     const sg::Score score = sg::score(sg::symbolic(system.pattern, order));
     for (const bool relaxed : {false, true}) {
       const sg::CliqueTree tree = sg::clique_tree(system.pattern, order, relaxed);
@@ -292,15 +275,12 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
 }
 
 TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
-  const char* const folder = std::getenv("SGTOOLS_DATA");
-  if (!folder) {
-    WARN("skipped: SGTOOLS_DATA is not set");
-    return;
-  }
+  const auto folder = public_graphs();
+  if (!folder) return;
   for (const char* name : {"tinyGrid3D.g2o", "smallGrid3D.g2o", "intel.g2o", "sphere2500.g2o",
                            "victoriaPark.isam.txt"}) {
     INFO(name);
-    const sg::Graph graph = sg::read_graph(std::string(folder) + "/" + name);
+    const sg::Graph graph = sg::read_graph(*folder + "/" + name);
     const sg::Problem problem = sg::make_problem(graph);
     sg::LinearSystem system = sg::make_linear_system(problem);
     sg::linearize(problem, sg::start_values(problem), {}, system);

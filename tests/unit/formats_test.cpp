@@ -1,11 +1,11 @@
 #include "formats/formats.h"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
 
 #include "lib/elim/score.h"
 #include "lib/graph/replay.h"
 #include "lib/order/order.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
 
@@ -143,14 +143,11 @@ TEST_CASE("foreign formats: line numbers hold and reading goes on", "[formats]")
 }
 
 TEST_CASE("public iSAM files have the published elimination complexity", "[formats][data]") {
-  const char* folder = std::getenv("SGTOOLS_DATA");
-  if (!folder) {
-    WARN("skipped: SGTOOLS_DATA is not set");
-    return;
-  }
+  const auto folder = test::public_graphs();
+  if (!folder) return;
   const auto [name, ec] = GENERATE(table<std::string, std::string>(
       {{"victoriaPark", "3348952"}, {"manhattanOlson3500", "7738470"}, {"sphere400", "17237880"}}));
-  const Graph graph = read_graph(std::string(folder) + "/" + name + ".isam.txt");
+  const Graph graph = read_graph(*folder + "/" + name + ".isam.txt");
   const GraphPattern pattern = graph_pattern(graph);
   const Order order = elimination_order("colamd", pattern.pattern, order_options(graph, pattern));
   CHECK(to_string(elimination_complexity(pattern.pattern, order)) == ec);

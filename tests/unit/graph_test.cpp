@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
@@ -9,14 +7,12 @@
 #include "lib/graph/pattern.h"
 #include "lib/graph/replay.h"
 #include "lib/text/words.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
+using namespace sg::test;
 
 namespace {
-
-Graph parsed(const std::string& text) {
-  return read_graph_text(text_of(text), "test.g2o");
-}
 
 std::string cause(const std::string& text, const ReadOptions& options = {}) {
   try {
@@ -27,31 +23,25 @@ std::string cause(const std::string& text, const ReadOptions& options = {}) {
   return "";
 }
 
-using Random = boost::random::mt19937_64;
-int uniform(Random& random, int low, int high) {
-  return boost::random::uniform_int_distribution<int>(low, high)(random);
-}
-
 // Poses 0, 10, 20, ... and landmarks in between, VERTEX lines shuffled; edges of every role,
 // doubled and unary ones too.
 std::string random_graph(Random& random) {
-  const int poses = uniform(random, 1, 8);
-  const int landmarks = uniform(random, 0, 5);
+  const int poses = draw(random, 1, 8);
+  const int landmarks = draw(random, 0, 5);
   std::vector<std::string> vertices;
   for (int k = 0; k < poses; ++k)
     vertices.push_back("VERTEX_SE2 " + std::to_string(10 * k) + " 0 0 0\n");
   for (int k = 0; k < landmarks; ++k)
     vertices.push_back("VERTEX_XY " + std::to_string(10 * k + 5) + " 0 0\n");
-  for (std::size_t k = vertices.size(); k > 1; --k)
-    std::swap(vertices[k - 1], vertices[uniform(random, 0, k - 1)]);
+  shuffle(random, vertices);
   std::string text;
   for (const auto& line : vertices) text += line;
-  for (int k = uniform(random, 0, 25); k > 0; --k) {
-    const std::string a = std::to_string(10 * uniform(random, 0, poses - 1));
-    const std::string b = std::to_string(10 * uniform(random, 0, poses - 1));
-    const std::string l = std::to_string(10 * uniform(random, 0, std::max(landmarks - 1, 0)) + 5);
-    const std::string m = std::to_string(10 * uniform(random, 0, std::max(landmarks - 1, 0)) + 5);
-    const int kind = landmarks > 0 ? uniform(random, 0, 4) : uniform(random, 0, 1);
+  for (int k = draw(random, 0, 25); k > 0; --k) {
+    const std::string a = std::to_string(10 * draw(random, 0, poses - 1));
+    const std::string b = std::to_string(10 * draw(random, 0, poses - 1));
+    const std::string l = std::to_string(10 * draw(random, 0, std::max(landmarks - 1, 0)) + 5);
+    const std::string m = std::to_string(10 * draw(random, 0, std::max(landmarks - 1, 0)) + 5);
+    const int kind = landmarks > 0 ? draw(random, 0, 4) : draw(random, 0, 1);
     if (kind == 0) text += "EDGE_PRIOR_SE2 " + a + " 0 0 0 1 0 0 1 0 1\n";
     if (kind == 1) text += "EDGE_SE2 " + a + " " + b + " 0 0 0 1 0 0 1 0 1\n";
     if (kind == 2 || kind == 3) text += "EDGE_SE2_XY " + a + " " + l + " 0 0 1 0 1\n";
@@ -115,8 +105,8 @@ std::vector<Index> literal_edge_steps(const Graph& graph, int min_obs) {
 TEST_CASE("a replay adds every edge at the step that the definition gives it", "[graph]") {
   Random random(7);
   for (int round = 0; round < 500; ++round) {
-    const Graph graph = parsed(random_graph(random));
-    const int min_obs = uniform(random, 1, 3);
+    const Graph graph = graph_of(random_graph(random));
+    const int min_obs = draw(random, 1, 3);
     CHECK(replay(graph, pose_index(graph), min_obs).edge_step ==
           literal_edge_steps(graph, min_obs));
   }
@@ -124,7 +114,7 @@ TEST_CASE("a replay adds every edge at the step that the definition gives it", "
 
 TEST_CASE("the pose index is the rank by id, whatever the order of lines", "[graph]") {
   const Graph graph =
-      parsed("VERTEX_SE2 9 0 0 0\nVERTEX_XY 5 0 0\nVERTEX_SE2 2 0 0 0\nVERTEX_SE2 4 0 0 0\n");
+      graph_of("VERTEX_SE2 9 0 0 0\nVERTEX_XY 5 0 0\nVERTEX_SE2 2 0 0 0\nVERTEX_SE2 4 0 0 0\n");
   const PoseIndex poses = pose_index(graph);
   REQUIRE(graph.id == std::vector<Id>{2, 4, 5, 9});
   CHECK(poses.pose == std::vector<Index>{0, 1, 3});
@@ -133,7 +123,7 @@ TEST_CASE("the pose index is the rank by id, whatever the order of lines", "[gra
 }
 
 TEST_CASE("edges have roles, and a gap in odometry starts a segment", "[graph]") {
-  const Graph graph = parsed(
+  const Graph graph = graph_of(
       "EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1\nEDGE_SE2 3 2 0 0 0 1 0 0 1 0 1\nEDGE_SE2 0 3 0 0 0 1 0 0 1 "
       "0 1\n"
       "EDGE_SE2_XY 1 7 0 0 1 0 1\nEDGE_PRIOR_SE2 0 0 0 0 1 0 0 1 0 1\n");
@@ -147,7 +137,7 @@ TEST_CASE("edges have roles, and a gap in odometry starts a segment", "[graph]")
 TEST_CASE("adjacency is the graph of A^T A", "[graph]") {
   Random random(11);
   for (int round = 0; round < 200; ++round) {
-    const GraphPattern graph = graph_pattern(parsed(random_graph(random)));
+    const GraphPattern graph = graph_pattern(graph_of(random_graph(random)));
     const Pattern& pattern = graph.pattern;
     std::vector<std::set<Index>> expected(pattern.variables());
     for (Index r = 0; r < pattern.rows.size(); ++r) {
@@ -167,7 +157,7 @@ TEST_CASE("adjacency is the graph of A^T A", "[graph]") {
 }
 
 TEST_CASE("fixed vertices are no variables, and a factor counts a variable once", "[graph]") {
-  const Graph graph = parsed(
+  const Graph graph = graph_of(
       "VERTEX_SE2 1 0 0 0\nVERTEX_SE2 2 0 0 0\nVERTEX_SE2 3 0 0 0\nFIX 1 3\nEDGE_SE2 1 2 0 0 0 1 0 "
       "0 1 0 1\n"
       "EDGE_SE2 2 2 0 0 0 1 0 0 1 0 1\nEDGE_SE2 1 3 0 0 0 1 0 0 1 0 1\n");

@@ -1,12 +1,8 @@
 // The incremental smoother against batch elimination of what it holds, and its bookkeeping against
 // the definitions.
 #include <algorithm>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
-#include <boost/random/uniform_real_distribution.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
 #include "formats/formats.h"
@@ -17,16 +13,14 @@
 #include "lib/solve/pool.h"
 #include "lib/solve/snapshot.h"
 #include "lib/text/error.h"
+#include "tests/unit/common.h"
+
+using namespace sg::test;
 
 namespace {
 
-using Random = boost::random::mt19937_64;
-
-int draw(Random& random, int least, int most) {
-  return boost::random::uniform_int_distribution<int>(least, most)(random);
-}
 double noise(Random& random, double size) {
-  return boost::random::uniform_real_distribution<double>(-size, size)(random);
+  return uniform(random, -size, size);
 }
 
 // A walk in the plane with loop closures, doubled edges, landmarks, and a prior somewhere.
@@ -69,10 +63,6 @@ std::string random_walk(Random& random, int poses, bool vertices) {
     }
   }
   return vertices ? lines + edges : edges;
-}
-
-sg::Graph graph_of(const std::string& text) {
-  return sg::read_graph_text(sg::text_of(text), "test.g2o");
 }
 
 // Cliques that are in the tree.
@@ -213,7 +203,7 @@ TEST_CASE("without relaxing thresholds, replay ends at batch's optimum", "[isam2
   }
 }
 
-TEST_CASE("skip 0 never relinearizes; a threshold of 0 does at once", "[isam2]") {
+TEST_CASE("skip 0 never relinearizes, a threshold of 0 does at once", "[isam2]") {
   Random random(4);
   const sg::Graph graph = graph_of(random_walk(random, 40, false));
   const sg::Problem problem = sg::make_problem(graph);
@@ -254,14 +244,11 @@ TEST_CASE("a step that cannot be solved is named with what it leaves open", "[is
 }
 
 TEST_CASE("public graphs: replay comes within 1 % of batch", "[isam2]") {
-  const char* const folder = std::getenv("SGTOOLS_DATA");
-  if (!folder) {
-    WARN("skipped: SGTOOLS_DATA is not set");
-    return;
-  }
+  const auto folder = public_graphs();
+  if (!folder) return;
   for (const char* name : {"intel.g2o", "manhattanOlson3500.isam.txt"}) {
     INFO(name);
-    const sg::Graph graph = sg::read_graph(std::string(folder) + "/" + name);
+    const sg::Graph graph = sg::read_graph(*folder + "/" + name);
     const sg::Problem problem = sg::make_problem(graph);
     auto replay = sg::make_isam2_replay(problem, {}, 1, false);
     for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::replay_step(replay, k);

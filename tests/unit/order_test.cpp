@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,29 +11,15 @@
 #include "lib/elim/node_elimination.h"
 #include "lib/elim/score.h"
 #include "lib/text/error.h"
+#include "tests/unit/common.h"
+
+using namespace sg::test;
 
 namespace {
 
 using sg::Index;
 using sg::Order;
 using sg::Pattern;
-
-// A pattern of n variables with random rows of 0 to 4 of them: unary rows, rows that repeat, empty
-// rows, variables without a row, several parts.
-Pattern odd_pattern(std::mt19937& random, Index n) {
-  Pattern pattern;
-  for (Index j = 0; j < n; ++j) pattern.dim.push_back(1 + static_cast<int>(random() % 6));
-  const Index rows = n == 0 ? 1 : static_cast<Index>(random() % (2 * n + 1));
-  for (Index r = 0; r < rows; ++r) {
-    std::vector<Index> row;
-    for (auto k = random() % 5; k > 0 && n > 0; --k) {
-      const auto j = static_cast<Index>(random() % n);
-      if (std::find(row.begin(), row.end(), j) == row.end()) row.push_back(j);
-    }
-    pattern.rows.add(row);
-  }
-  return pattern;
-}
 
 bool is_permutation_of(const Order& order, Index n) {
   Order sorted = order;
@@ -68,10 +51,10 @@ Pattern side_by_side(const Pattern& a, const Pattern& b) {
   return both;
 }
 
-std::vector<Index> some_variables(std::mt19937& random, Index n) {
+std::vector<Index> some_variables(Random& random, Index n) {
   std::vector<Index> some;
   for (Index j = 0; j < n; ++j) {
-    if (random() % 4 == 0) some.push_back(j);
+    if (draw(random, 0, 3) == 0) some.push_back(j);
   }
   return some;
 }
@@ -79,9 +62,9 @@ std::vector<Index> some_variables(std::mt19937& random, Index n) {
 }  // namespace
 
 TEST_CASE("every ordering is a permutation, the same each time", "[order]") {
-  std::mt19937 random(1);
+  Random random(1);
   for (int trial = 0; trial < 300; ++trial) {
-    const Index n = trial < 20 ? trial / 4 : static_cast<Index>(random() % 60);
+    const Index n = trial < 20 ? trial / 4 : draw(random, 0, 59);
     const Pattern pattern = odd_pattern(random, n);
     for (const sg::Ordering& ordering : sg::orderings()) {
       INFO(ordering.name << " on trial " << trial);
@@ -93,9 +76,9 @@ TEST_CASE("every ordering is a permutation, the same each time", "[order]") {
 }
 
 TEST_CASE("variables constrained to the end stand at the end", "[order]") {
-  std::mt19937 random(2);
+  Random random(2);
   for (int trial = 0; trial < 200; ++trial) {
-    const auto n = static_cast<Index>(random() % 40);
+    const Index n = draw(random, 0, 39);
     const Pattern pattern = odd_pattern(random, n);
     sg::OrderOptions options;
     options.last = some_variables(random, n);
@@ -112,9 +95,9 @@ TEST_CASE("variables constrained to the end stand at the end", "[order]") {
 }
 
 TEST_CASE("EC of every ordering is that of literal node elimination", "[order]") {
-  std::mt19937 random(4);
+  Random random(4);
   for (int trial = 0; trial < 60; ++trial) {
-    const Pattern pattern = odd_pattern(random, static_cast<Index>(random() % 50));
+    const Pattern pattern = odd_pattern(random, draw(random, 0, 49));
     sg::OrderOptions options;
     if (trial % 2 == 0) options.last = some_variables(random, pattern.variables());
     for (const sg::Ordering& ordering : sg::orderings()) {
@@ -127,10 +110,10 @@ TEST_CASE("EC of every ordering is that of literal node elimination", "[order]")
 }
 
 TEST_CASE("methods that order part by part give each part its own order", "[order]") {
-  std::mt19937 random(5);
+  Random random(5);
   for (int trial = 0; trial < 60; ++trial) {
-    const Pattern a = odd_pattern(random, static_cast<Index>(random() % 30));
-    const Pattern b = odd_pattern(random, static_cast<Index>(random() % 30));
+    const Pattern a = odd_pattern(random, draw(random, 0, 29));
+    const Pattern b = odd_pattern(random, draw(random, 0, 29));
     for (const char* name : {"metis", "scotch", "mmd", "rcm", "king", "sloan"}) {
       INFO(name << " on trial " << trial);
       Order expected = sg::elimination_order(name, a);
@@ -155,7 +138,7 @@ TEST_CASE("paths are ordered without fill", "[order]") {
 }
 
 TEST_CASE("a variable out of range is no last variable", "[order]") {
-  std::mt19937 random(6);
+  Random random(6);
   const Pattern pattern = odd_pattern(random, 5);
   sg::OrderOptions options;
   options.last = {5};
@@ -179,7 +162,7 @@ TEST_CASE("an unknown ordering is a usage error that names the known", "[order]"
 }
 
 TEST_CASE("the random order depends on the seed alone", "[order]") {
-  std::mt19937 random(3);
+  Random random(3);
   const Pattern pattern = odd_pattern(random, 50);
   sg::OrderOptions other;
   other.seed = 1;
@@ -223,14 +206,11 @@ constexpr Known known[] = {{"tinyGrid3D.g2o", 13608, 13608, 15120},
                            {"victoriaPark.isam.txt", 3348952, 3415589, 0}};
 
 TEST_CASE("colamd, amd and metis give the known EC on public graphs", "[order][data]") {
-  const char* data = std::getenv("SGTOOLS_DATA");
-  if (!data) {
-    std::cout << "skipped: orderings of public graphs (SGTOOLS_DATA is not set)\n";
-    return;
-  }
+  const auto folder = public_graphs();
+  if (!folder) return;
   for (const Known& row : known) {
     INFO(row.file);
-    const sg::Graph graph = sg::read_graph(std::string(data) + "/" + row.file);
+    const sg::Graph graph = sg::read_graph(*folder + "/" + row.file);
     const sg::GraphPattern graph_pattern = sg::graph_pattern(graph);
     const Pattern& pattern = graph_pattern.pattern;
     const auto ec = [&](const char* name) {

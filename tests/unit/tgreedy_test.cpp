@@ -4,29 +4,19 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <map>
-#include <random>
 
 #include "formats/formats.h"
 #include "lib/prune/candidates.h"
 #include "lib/trees/spanning_trees.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
+using namespace sg::test;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-using Random = std::mt19937;
-
-int dice(Random& random, int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random);
-}
-
-Graph parse(const std::string& text) {
-  return read_graph_text(text_of(text), "test.g2o");
-}
 
 // The parts of a dense graph, and log t of each added up, from the eigenvalues of the Laplacian:
 // the product of the nonzero ones is (number of nodes) t for each part.
@@ -179,33 +169,33 @@ std::vector<Index> edges_of(const std::vector<Accepted>& accepted) {
 }
 
 std::string number(Random& random, bool wild) {
-  const double exponent = std::uniform_real_distribution<double>(-1, 1)(random) * (wild ? 4 : 0.5);
+  const double exponent = uniform(random, -1, 1) * (wild ? 4 : 0.5);
   return " " + std::to_string(100 * std::pow(10, exponent));
 }
 
 // A pose graph in the plane, perhaps with landmarks, gaps in odometry, parallel edges, a fixed
 // vertex or two. Information is diagonal.
 std::string random_graph(Random& random, bool landmarks, bool wild) {
-  const int poses = dice(random, 1, 14), points = landmarks ? dice(random, 1, 6) : 0;
+  const int poses = draw(random, 1, 14), points = landmarks ? draw(random, 1, 6) : 0;
   std::string text;
   for (int i = 0; i < poses; ++i) text += "VERTEX_SE2 " + std::to_string(i) + " 0 0 0\n";
   for (int j = 0; j < points; ++j) text += "VERTEX_XY " + std::to_string(50 + j) + " 0 0\n";
-  for (int fixes = dice(random, 0, 2); fixes > 0; --fixes)
-    text += "FIX " + std::to_string(dice(random, 0, poses - 1)) + "\n";
+  for (int fixes = draw(random, 0, 2); fixes > 0; --fixes)
+    text += "FIX " + std::to_string(draw(random, 0, poses - 1)) + "\n";
   const auto motion = [&](int i, int j) {
     const std::string t = number(random, wild), r = number(random, wild);
     text += "EDGE_SE2 " + std::to_string(i) + " " + std::to_string(j) + " 1 0 0" + t + " 0 0" + t +
             " 0" + r + "\n";
   };
   for (int i = 1; i < poses; ++i) {
-    for (int copies = dice(random, 0, 9) / 2; copies > 0; copies /= 2) motion(i - 1, i);
+    for (int copies = draw(random, 0, 9) / 2; copies > 0; copies /= 2) motion(i - 1, i);
   }
-  for (int k = dice(random, 0, 25); k > 0; --k)
-    motion(dice(random, 0, poses - 1), dice(random, 0, poses - 1));
-  for (int k = points ? dice(random, 0, 30) : 0; k > 0; --k) {
+  for (int k = draw(random, 0, 25); k > 0; --k)
+    motion(draw(random, 0, poses - 1), draw(random, 0, poses - 1));
+  for (int k = points ? draw(random, 0, 30) : 0; k > 0; --k) {
     const std::string t = number(random, wild);
-    text += "EDGE_SE2_XY " + std::to_string(dice(random, 0, poses - 1)) + " " +
-            std::to_string(50 + dice(random, 0, points - 1)) + " 1 1" + t + " 0" + t + "\n";
+    text += "EDGE_SE2_XY " + std::to_string(draw(random, 0, poses - 1)) + " " +
+            std::to_string(50 + draw(random, 0, points - 1)) + " 1 1" + t + " 0" + t + "\n";
   }
   return text;
 }
@@ -216,13 +206,13 @@ TEST_CASE("the kept set is the textbook greedy's", "[tgreedy]") {
   Random random(1);
   int kept_in_all = 0;
   for (int trial = 0; trial < 600; ++trial) {
-    const Graph graph = parse(random_graph(random, trial % 2 == 0, trial % 5 == 0));
+    const Graph graph = graph_of(random_graph(random, trial % 2 == 0, trial % 5 == 0));
     const PoseIndex poses = pose_index(graph);
     const TreeWeights kind = static_cast<TreeWeights>(trial % 4);
     const auto candidates = candidate_edges(
         graph, poses, trial % 3 == 0 ? Candidates::both : natural_candidates(graph));
     if (kind == TreeWeights::rotation && trial % 2 == 0) continue;  // points have no rotation
-    const std::size_t count = dice(random, 0, static_cast<int>(candidates.size()) + 2);
+    const std::size_t count = draw(random, 0, static_cast<int>(candidates.size()) + 2);
     const auto kept = edges_of(tgreedy(graph, candidates, count, kind));
     INFO("trial " << trial);
     CHECK(kept == textbook(graph, candidates, count, kind));
@@ -234,11 +224,11 @@ TEST_CASE("the kept set is the textbook greedy's", "[tgreedy]") {
 TEST_CASE("the online choice is the textbook's, batch by batch", "[tgreedy]") {
   Random random(2);
   for (int trial = 0; trial < 300; ++trial) {
-    const Graph graph = parse(random_graph(random, trial % 2 == 0, false));
+    const Graph graph = graph_of(random_graph(random, trial % 2 == 0, false));
     const PoseIndex poses = pose_index(graph);
     const auto candidates = candidate_edges(graph, poses, natural_candidates(graph));
-    const std::size_t count = dice(random, 0, static_cast<int>(candidates.size()) + 2);
-    const Index batch = dice(random, 1, 4);
+    const std::size_t count = draw(random, 0, static_cast<int>(candidates.size()) + 2);
+    const Index batch = draw(random, 1, 4);
     INFO("trial " << trial);
     CHECK(edges_of(tgreedy_online(graph, poses, candidates, count, TreeWeights::unit, batch)) ==
           textbook_online(graph, poses, candidates, count, TreeWeights::unit, batch));
@@ -248,7 +238,7 @@ TEST_CASE("the online choice is the textbook's, batch by batch", "[tgreedy]") {
 TEST_CASE("gains add up to the criterion, and shrink", "[tgreedy]") {
   Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
-    const Graph graph = parse(random_graph(random, trial % 2 == 0, false));
+    const Graph graph = graph_of(random_graph(random, trial % 2 == 0, false));
     const auto candidates = candidate_edges(graph, pose_index(graph), natural_candidates(graph));
     const auto accepted = tgreedy(graph, candidates, candidates.size(), TreeWeights::dopt);
     for (std::size_t k = 1; k < accepted.size(); ++k) {
@@ -261,12 +251,9 @@ TEST_CASE("gains add up to the criterion, and shrink", "[tgreedy]") {
 }
 
 TEST_CASE("intel: the textbook's choice", "[tgreedy]") {
-  const char* data = std::getenv("SGTOOLS_DATA");
-  if (!data) {
-    WARN("skipped: SGTOOLS_DATA is not set");
-    return;
-  }
-  const Graph graph = read_graph(std::string(data) + "/intel.g2o");
+  const auto folder = public_graphs();
+  if (!folder) return;
+  const Graph graph = read_graph(*folder + "/intel.g2o");
   const auto candidates = candidate_edges(graph, pose_index(graph), Candidates::loops);
   const auto accepted = tgreedy(graph, candidates, candidates.size() / 4, TreeWeights::unit);
 
@@ -300,7 +287,7 @@ TEST_CASE("intel: the textbook's choice", "[tgreedy]") {
 
 TEST_CASE("parts that candidates join come first, and nothing is lost", "[tgreedy]") {
   const std::string tail = " 1 0 0 1 0 0 1 0 1\n";
-  const Graph graph = parse(
+  const Graph graph = graph_of(
       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_SE2 2 0 0 0\n"
       "VERTEX_SE2 3 0 0 0\nVERTEX_SE2 4 0 0 0\nVERTEX_SE2 5 0 0 0\n"
       "EDGE_SE2 0 1" +
@@ -339,20 +326,20 @@ TEST_CASE("spanning trees: formulas that everybody knows", "[tgreedy]") {
 TEST_CASE("spanning trees of weights that differ wildly", "[tgreedy]") {
   Random random(4);
   for (int trial = 0; trial < 100; ++trial) {
-    const int n = dice(random, 2, 9);
+    const int n = draw(random, 2, 9);
     std::vector<TreeEdge> links;
     std::vector<double> weight;
     DenseGraph dense(n);
     const auto add = [&](int u, int v) {
-      const double w = std::pow(10, std::uniform_real_distribution<double>(-6, 6)(random));
+      const double w = std::pow(10, uniform(random, -6, 6));
       links.push_back({u, v});
       weight.push_back(w);
       dense.add(u, v, w);
     };
-    for (int v = 1; v < n; ++v) add(dice(random, 0, v - 1), v);
-    for (int k = dice(random, 0, 10); k > 0; --k) {
-      const int u = dice(random, 0, n - 2);
-      add(u, dice(random, u + 1, n - 1));
+    for (int v = 1; v < n; ++v) add(draw(random, 0, v - 1), v);
+    for (int k = draw(random, 0, 10); k > 0; --k) {
+      const int u = draw(random, 0, n - 2);
+      add(u, draw(random, u + 1, n - 1));
     }
     SpanningTrees trees = spanning_trees(n, links, weight);
     const double expected =

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
 #include <numeric>
-#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,6 +14,9 @@
 #include "lib/order/min_queue.h"
 #include "lib/order/order.h"
 #include "lib/order/quotient_graph.h"
+#include "tests/unit/common.h"
+
+using namespace sg::test;
 
 namespace {
 
@@ -26,30 +25,9 @@ using sg::Order;
 using sg::Pattern;
 using Row = std::vector<Index>;
 
-Pattern pattern_of(std::vector<int> dim, const std::vector<Row>& rows) {
-  Pattern pattern;
-  pattern.dim = std::move(dim);
-  for (const Row& row : rows) pattern.rows.add(row);
-  return pattern;
-}
-
-// n variables of dimension 1 to 6, rows of none to three of them, of any density.
-Pattern odd_pattern(std::mt19937& random, Index n) {
-  std::vector<int> dim;
-  for (Index j = 0; j < n; ++j) dim.push_back(1 + static_cast<int>(random() % 6));
-  std::vector<Row> rows(n == 0 ? 1 : random() % (1 + n * (1 + random() % 4)));
-  for (Row& row : rows) {
-    for (auto k = random() % 4; k > 0 && n > 0; --k) {
-      const auto j = static_cast<Index>(random() % n);
-      if (std::find(row.begin(), row.end(), j) == row.end()) row.push_back(j);
-    }
-  }
-  return pattern_of(std::move(dim), rows);
-}
-
-std::vector<int> odd_stages(std::mt19937& random, Index n) {
+std::vector<int> odd_stages(Random& random, Index n) {
   std::vector<int> stage(n);
-  for (int& s : stage) s = static_cast<int>(random() % 3);
+  for (int& s : stage) s = draw(random, 0, 2);
   return stage;
 }
 
@@ -111,12 +89,12 @@ std::set<Index> members(const sg::Supervariables& variables, Index v) {
   return result;
 }
 
-Index some_alive(const sg::Supervariables& variables, std::mt19937& random) {
+Index some_alive(const sg::Supervariables& variables, Random& random) {
   std::vector<Index> alive;
   for (Index v = 0; v < static_cast<Index>(variables.dim.size()); ++v) {
     if (variables.alive[v]) alive.push_back(v);
   }
-  return alive.empty() ? -1 : alive[random() % alive.size()];
+  return alive.empty() ? -1 : alive[draw(random, 0, static_cast<int>(alive.size()) - 1)];
 }
 
 // Follows what was eliminated since `done`; returns the sum of the costs.
@@ -131,24 +109,21 @@ sg::Wide follow(Literal& literal, const Order& order, std::size_t& done) {
   return cost;
 }
 
-double seconds(const Pattern& pattern) {
-  const auto start = std::chrono::steady_clock::now();
-  const Order order = sg::wmf(pattern);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  REQUIRE(is_permutation_of(order, pattern.variables()));
-  return time.count();
+// However many they are: what took quadratic time would not end.
+bool is_ordered(const Pattern& pattern) {
+  return is_permutation_of(sg::wmf(pattern), pattern.variables());
 }
 
 Pattern star(Index n) {
   std::vector<Row> rows;
   for (Index j = 1; j < n; ++j) rows.push_back({0, j});
-  return pattern_of(std::vector<int>(n, 3), rows);
+  return make_pattern(std::vector<int>(n, 3), rows);
 }
 
 Pattern path(Index n) {
   std::vector<Row> rows;
   for (Index j = 1; j < n; ++j) rows.push_back({j - 1, j});
-  return pattern_of(std::vector<int>(n, 6), rows);
+  return make_pattern(std::vector<int>(n, 6), rows);
 }
 
 sg::Wide ec(const Pattern& pattern, const Order& order) {
@@ -158,9 +133,9 @@ sg::Wide ec(const Pattern& pattern, const Order& order) {
 }  // namespace
 
 TEST_CASE("the fill graph knows every fill and degree exactly", "[wmf]") {
-  std::mt19937 random(1);
+  Random random(1);
   for (int trial = 0; trial < 400; ++trial) {
-    const auto n = static_cast<Index>(random() % 25);
+    const Index n = draw(random, 0, 24);
     const Pattern pattern = odd_pattern(random, n);
     const std::vector<int> stage = trial % 2 == 0 ? std::vector<int>{} : odd_stages(random, n);
     Literal literal(pattern);
@@ -184,9 +159,9 @@ TEST_CASE("the fill graph knows every fill and degree exactly", "[wmf]") {
 }
 
 TEST_CASE("the quotient graph's fronts are exact, its degrees and fills bounds", "[wmf]") {
-  std::mt19937 random(2);
+  Random random(2);
   for (int trial = 0; trial < 400; ++trial) {
-    const auto n = static_cast<Index>(random() % 25);
+    const Index n = draw(random, 0, 24);
     const Pattern pattern = odd_pattern(random, n);
     const std::vector<int> stage = trial % 2 == 0 ? std::vector<int>{} : odd_stages(random, n);
     Literal literal(pattern);
@@ -213,10 +188,10 @@ TEST_CASE("the quotient graph's fronts are exact, its degrees and fills bounds",
 }
 
 TEST_CASE("better_first finds a cheaper pair that leaves the same graph", "[wmf]") {
-  std::mt19937 random(3);
+  Random random(3);
   int found = 0;
   for (int trial = 0; trial < 1000; ++trial) {
-    const Pattern pattern = odd_pattern(random, 2 + static_cast<Index>(random() % 12));
+    const Pattern pattern = odd_pattern(random, draw(random, 2, 13));
     const sg::FillGraph graph = sg::fill_graph(sg::adjacency(pattern), pattern.dim, {}, 1'000'000);
     const Index v = some_alive(graph.variables, random);
     sg::FillGraph one = graph;
@@ -242,9 +217,9 @@ TEST_CASE("better_first finds a cheaper pair that leaves the same graph", "[wmf]
 }
 
 TEST_CASE("greedy passes: a permutation by stages, with its own exact EC", "[wmf]") {
-  std::mt19937 random(4);
+  Random random(4);
   for (int trial = 0; trial < 600; ++trial) {
-    const auto n = static_cast<Index>(random() % 60);
+    const Index n = draw(random, 0, 59);
     const Pattern pattern = odd_pattern(random, n);
     sg::GreedyOptions options;
     if (trial % 2 == 0) options.stage = odd_stages(random, n);
@@ -269,68 +244,68 @@ TEST_CASE("greedy passes: a permutation by stages, with its own exact EC", "[wmf
 TEST_CASE("ties go to the lowest index, or by seed", "[wmf]") {
   std::vector<Row> rows;
   for (Index j = 0; j < 100; ++j) rows.push_back({j, (j + 1) % 100});
-  const Pattern cycle = pattern_of(std::vector<int>(100, 3), rows);
+  const Pattern cycle = make_pattern(std::vector<int>(100, 3), rows);
   CHECK(sg::wmf(cycle).front() == 0);
   CHECK(sg::wmf(cycle, {{}, 1}) == sg::wmf(cycle, {{}, 1}));
   CHECK(sg::wmf(cycle, {{}, 1}) != sg::wmf(cycle, {{}, 2}));
 }
 
 TEST_CASE("chordal graphs are eliminated without fill", "[wmf]") {
-  std::mt19937 random(5);
+  Random random(5);
   for (int trial = 0; trial < 100; ++trial) {
     // Each variable joins a part of the clique of an earlier one: a random chordal graph.
-    const auto n = static_cast<Index>(1 + random() % 60);
+    const Index n = draw(random, 1, 60);
     std::vector<Row> rows{{0}};
     for (Index j = 1; j < n; ++j) {
       Row row;
-      for (Index i : rows[random() % j]) {
-        if (random() % 4 != 0) row.push_back(i);
+      for (Index i : rows[draw(random, 0, j - 1)]) {
+        if (draw(random, 0, 3) != 0) row.push_back(i);
       }
       row.push_back(j);
       rows.push_back(row);
     }
-    const Pattern pattern = pattern_of(std::vector<int>(n, 3), rows);
+    const Pattern pattern = make_pattern(std::vector<int>(n, 3), rows);
     const sg::Score score = sg::score(sg::symbolic(pattern, sg::wmf(pattern)));
     CHECK(score.nnz == sg::system_nnz(pattern));
   }
 }
 
 TEST_CASE("a queue gives its smallest key, ties by rank", "[wmf]") {
-  std::mt19937 random(6);
+  Random random(6);
   sg::MinQueue queue(50);
   std::iota(queue.rank.rbegin(), queue.rank.rend(), 0);
   std::set<std::pair<double, std::pair<Index, Index>>> oracle;
   const auto entry = [&](Index v) { return std::pair(queue.key[v], std::pair(queue.rank[v], v)); };
   for (int step = 0; step < 20'000; ++step) {
-    const auto v = static_cast<Index>(random() % 50);
+    const Index v = draw(random, 0, 49);
     if (queue.holds(v)) oracle.erase(entry(v));
-    if (random() % 3 == 0) {
+    if (draw(random, 0, 2) == 0) {
       sg::erase(queue, v);
     } else {
-      sg::set_key(queue, v, static_cast<double>(random() % 20));
+      sg::set_key(queue, v, draw(random, 0, 19));
       oracle.insert(entry(v));
     }
     REQUIRE(queue.empty() == oracle.empty());
-    if (queue.empty() || random() % 4 != 0) continue;
+    if (queue.empty() || draw(random, 0, 3) != 0) continue;
     REQUIRE(sg::pop(queue) == oracle.begin()->second.second);
     oracle.erase(oracle.begin());
   }
 }
 
-TEST_CASE("degenerate graphs are ordered fast", "[wmf]") {
-  CHECK(sg::wmf(pattern_of({}, {})).empty());
-  CHECK(sg::wmf(pattern_of({6}, {{0}, {}})) == Order{0});
+TEST_CASE("degenerate graphs are ordered, however large", "[wmf]") {
+  CHECK(sg::wmf(make_pattern({}, {})).empty());
+  CHECK(sg::wmf(make_pattern({6}, {{0}, {}})) == Order{0});
 
-  CHECK(seconds(star(100'000)) < 5);
+  CHECK(is_ordered(star(100'000)));
   const Order order = sg::wmf(star(1000));
   CHECK(std::find(order.begin(), order.end(), 0) - order.begin() >= 998);
 
   Row all(2000);
   std::iota(all.begin(), all.end(), 0);
-  CHECK(seconds(pattern_of(std::vector<int>(2000, 3), {all})) < 5);
+  CHECK(is_ordered(make_pattern(std::vector<int>(2000, 3), {all})));
 
-  CHECK(seconds(path(1'000'000)) < 20);
-  CHECK(seconds(pattern_of(std::vector<int>(100'000, 3), {})) < 5);  // all disconnected
+  CHECK(is_ordered(path(1'000'000)));
+  CHECK(is_ordered(make_pattern(std::vector<int>(100'000, 3), {})));  // all disconnected
 
   // Two wheels, whose hubs see everybody; every landmark seen from every pose.
   std::vector<Row> rows;
@@ -338,26 +313,22 @@ TEST_CASE("degenerate graphs are ordered fast", "[wmf]") {
     rows.push_back({j % 2, j});
     if (j > 3) rows.push_back({j - 2, j});
   }
-  CHECK(seconds(pattern_of(std::vector<int>(50'000, 3), rows)) < 5);
+  CHECK(is_ordered(make_pattern(std::vector<int>(50'000, 3), rows)));
   rows.clear();
   for (Index pose = 0; pose < 400; ++pose) {
     for (Index landmark = 400; landmark < 900; ++landmark) rows.push_back({pose, landmark});
   }
-  CHECK(seconds(pattern_of(std::vector<int>(900, 3), rows)) < 5);
+  CHECK(is_ordered(make_pattern(std::vector<int>(900, 3), rows)));
 }
 
 TEST_CASE("wmf is not above the better of colamd and amd on public graphs", "[wmf][data]") {
-  const char* data = std::getenv("SGTOOLS_DATA");
-  if (!data) {
-    std::cout << "skipped: wmf on public graphs (SGTOOLS_DATA is not set)\n";
-    return;
-  }
+  const auto folder = public_graphs();
+  if (!folder) return;
   for (const char* file :
        {"CSAIL.g2o", "tinyGrid3D.g2o", "smallGrid3D.g2o", "intel.g2o", "kitti_00.g2o",
         "manhattan.g2o", "sphere2500.g2o", "torus3D.g2o", "city10000.g2o"}) {
     INFO(file);
-    const Pattern pattern =
-        sg::graph_pattern(sg::read_graph(std::string(data) + "/" + file)).pattern;
+    const Pattern pattern = sg::graph_pattern(sg::read_graph(*folder + "/" + file)).pattern;
     const sg::Wide colamd = ec(pattern, sg::elimination_order("colamd", pattern));
     const sg::Wide amd = ec(pattern, sg::elimination_order("amd", pattern));
     CHECK(100 * ec(pattern, sg::wmf(pattern)) <= 101 * std::min(colamd, amd));

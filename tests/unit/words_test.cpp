@@ -6,31 +6,29 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "lib/text/line.h"
+#include "tests/unit/common.h"
 
 using namespace sg;
+using namespace sg::test;
 
 namespace {
 
-std::mt19937 random_bits;  // every case seeds it
-
-std::string random_line(const std::string& alphabet) {
-  std::uniform_int_distribution<std::size_t> letter(0, alphabet.size() - 1);
-  std::string line(std::uniform_int_distribution<std::size_t>(0, 24)(random_bits), ' ');
-  for (char& c : line) c = alphabet[letter(random_bits)];
+std::string random_line(Random& random, const std::string& alphabet) {
+  std::string line(draw(random, 0, 24), ' ');
+  for (char& c : line) c = alphabet[draw(random, 0, static_cast<int>(alphabet.size()) - 1)];
   return line;
 }
 
 }  // namespace
 
 TEST_CASE("a plain number is one that conversion accepts", "[words]") {
-  random_bits.seed(1);
+  Random random(1);
   for (int trial = 0; trial < 200'000; ++trial) {
-    const std::string line = random_line("0123456789.-+ \r\tenx");
+    const std::string line = random_line(random, "0123456789.-+ \r\tenx");
     std::string_view quick = line;
     std::string_view slow = line;
     const auto word = next_word(slow);
@@ -44,9 +42,9 @@ TEST_CASE("a plain number is one that conversion accepts", "[words]") {
 }
 
 TEST_CASE("a plain id is what conversion makes of it", "[words]") {
-  random_bits.seed(2);
+  Random random(2);
   for (int trial = 0; trial < 200'000; ++trial) {
-    const std::string line = random_line("0123456789012345678901234567890123456789 -+x");
+    const std::string line = random_line(random, "0123456789012345678901234567890123456789 -+x");
     std::string_view quick = line;
     std::string_view slow = line;
     const auto word = next_word(slow);
@@ -101,9 +99,9 @@ TEST_CASE("a number is written in the shortest text that reads back", "[words]")
   append_numbers(out, std::array{0.5, -1.0});
   append_word(out, "end");
   CHECK(out == "TAG -9223372036854775808 0.5 -1 end");
-  random_bits.seed(3);
+  Random random(3);
   for (int trial = 0; trial < 100'000; ++trial) {
-    const auto bits = std::uint64_t{random_bits()} << 32 | random_bits();
+    const auto bits = std::uint64_t{random()} << 32 | random();
     const auto number = std::bit_cast<double>(bits);
     if (std::isfinite(number)) REQUIRE(parse<double>(format_number(number)) == number);
   }

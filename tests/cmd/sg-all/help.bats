@@ -35,9 +35,9 @@ documented() {
   for command in $commands; do
     $command -h | grep -q '^Usage: '
     [[ $($command --version) == "$command (sgtools) "[0-9]* ]]
-    code=0
-    said=$($command --no-such-thing 2>&1 <"$TESTDATA/walk.g2o") || code=$?
-    [ $code = 2 ] && [ "$(wc -l <<<"$said")" = 1 ] && [[ $said == "$command: "*" (see $command --help)" ]]
+    run -2 $command --no-such-thing <"$TESTDATA/walk.g2o"
+    [ "${#lines[@]}" = 1 ]
+    [[ $output == "$command: "*" (see $command --help)" ]]
   done
 }
 
@@ -51,7 +51,7 @@ documented() {
       long_options >said
     documented "$MAN/$command.1" >page
     sort -u shared page >known
-    grep -q '^\.Xr sg-rand 1 \.$' "$MAN/$command.1" && sort -u -o known known by_reference
+    if grep -q '^\.Xr sg-rand 1 \.$' "$MAN/$command.1"; then sort -u -o known known by_reference; fi
     missing=$(comm -23 said known) surplus=$(comm -13 said page | grep -vxF -f <(grep -ohE -- '--[a-z-]+' said shared) || true)
     [ -z "$missing$surplus" ] || { echo "$command: undocumented: $missing; unknown: $surplus" >&2; return 1; }
   done

@@ -90,7 +90,8 @@ near() {
 @test "TUM: the trajectory, composed where the file has no estimates" {
   sg-convert --to tum walk.g2o 2>/dev/null | sed -n 2p | grep -qx '1 1 0 0 0 0 0 1'
   sg-convert -q --to tum park.isam | awk '
-    $1 == 1 { exit !(NF == 8 && $2 == 1 && $3 == 0 && $4 == 0 && ($7 - sqrt(0.5))^2 < 1e-20) }'
+    $1 == 1 {good = NF == 8 && $2 == 1 && $3 == 0 && $4 == 0 && ($7 - sqrt(0.5))^2 < 1e-20}
+    END {exit !good}'
 }
 
 @test "estimates on request, and a file that needs none" {
@@ -104,7 +105,8 @@ near() {
   fails 1 "sg-convert: walk.g2o:11: toro cannot hold EDGE_SE2_XY (6 lines; --lossy leaves them out)" \
     sg-convert --to toro -o out.toro walk.g2o
   [ ! -e out.toro ]
-  sg-convert --lossy -q --to toro walk.g2o | grep -vq XY
+  sg-convert --lossy -q --to toro -o out.toro walk.g2o
+  [ "$(cut -d' ' -f1 out.toro | sort -u | xargs)" = "# EDGE2 VERTEX2" ]
   fails 0 "sg-convert: park.isam: tum cannot hold VERTEX_XY (2 lines, left out)" sg-convert --to tum park.isam
   printf 'EDGE_SE3_TRACKXYZ 0 1 0 1 1 1 1 0 0 1 0 1\nPARAMS_SE3OFFSET 0 0 0 1 0 0 0 1\n' >offset.g2o
   fails 1 "sg-convert: offset.g2o:1: isam cannot hold EDGE_SE3_TRACKXYZ (1 line; --lossy leaves them out)" \

@@ -1,10 +1,9 @@
 load ../common
-bats_require_minimum_version 1.5.0
 
 setup() { cd "$TESTDATA"; }
 
 @test "Figure 1 of the paper: neighbours and fill of every step" {
-  run sg-elim -m file --no-header -f step,variable,neighbours,fill figure1.g2o
+  run -0 sg-elim -m file --no-header -f step,variable,neighbours,fill figure1.g2o
   [ "$output" = "$(printf '0\t0\t1 2\t1-2\n1\t1\t2 3\t2-3\n2\t2\t3 4\t\n3\t3\t4\t\n4\t4\t\t')" ]
 }
 

@@ -17,7 +17,7 @@ tags() { grep -v '^#' "$1" | cut -d' ' -f1 | sort | uniq -c | awk '{print $2 " "
   for world in $(worlds); do
     cmp <(sg-gen $world -n 60) <(sg-gen $world -n 60)
     cmp <(sg-gen $world -n 60 --seed 1 --no-trace-comment) <(sg-gen $world -n 60 --no-trace-comment)
-    ! cmp -s <(sg-gen $world -n 60 --no-trace-comment) <(sg-gen $world -n 60 --seed 2 --no-trace-comment)
+    run -1 cmp -s <(sg-gen $world -n 60 --no-trace-comment) <(sg-gen $world -n 60 --seed 2 --no-trace-comment)
   done
 }
 
@@ -61,7 +61,7 @@ tags() { grep -v '^#' "$1" | cut -d' ' -f1 | sort | uniq -c | awk '{print $2 " "
   [ "$(tags truth.g2o)" = "$(tags noisy.g2o)" ]
   strip() { awk '/^EDGE_SE3_TRACKXYZ/ {print $1, $2, $3, $4, $8, $9, $10, $11, $12, $13} /^VERTEX/ {print $1, $2}' "$1"; }
   cmp <(strip truth.g2o) <(strip noisy.g2o)
-  ! cmp -s truth.g2o noisy.g2o
+  run -1 cmp -s truth.g2o noisy.g2o
   sg-gen sine -n 40 --sensor xyz --truth - -o noisy.g2o --no-trace-comment | cmp - <(grep -v '^#' truth.g2o)
 }
 
@@ -85,16 +85,16 @@ tags() { grep -v '^#' "$1" | cut -d' ' -f1 | sort | uniq -c | awk '{print $2 " "
   fails 2 "sg-gen: --sensor bearing belongs to --dim 2 (see sg-gen --help)" sg-gen sine --sensor bearing
   fails 2 "sg-gen: --sensor mono belongs to --dim 3 (see sg-gen --help)" sg-gen worst --dim 2 --sensor mono
   fails 2 "sg-gen: a camera's --fov is below 180 degrees (see sg-gen --help)" sg-gen sine --fov 180
-  run sg-gen sine --loops 0.5; [ "$status" -eq 2 ]
-  run sg-gen sphere --loops 1.5; [ "$status" -eq 2 ]
+  run -2 sg-gen sine --loops 0.5
+  run -2 sg-gen sphere --loops 1.5
 }
 
 @test "a full disk, a missing folder, a reader that leaves" {
   fails 3 "sg-gen: <stdout>: cannot write: No space left on device" bash -c 'sg-gen sine >/dev/full'
   fails 3 "sg-gen: /dev/full: cannot write: No space left on device" sg-gen sine -o /dev/full
-  run sg-gen sine -o missing/a.g2o; [ "$status" -eq 3 ]
+  run -3 sg-gen sine -o missing/a.g2o
   echo before >a.g2o
-  run sg-gen sine -o a.g2o --truth missing/b.g2o; [ "$status" -eq 3 ]
+  run -3 sg-gen sine -o a.g2o --truth missing/b.g2o
   [ "$(cat a.g2o)" = before ]
   [ "$(ls)" = a.g2o ]
   said=$( { sg-gen manhattan -n 50000 | head -n 1 >/dev/null; echo "${PIPESTATUS[0]}"; } 2>&1)

@@ -9,7 +9,7 @@ within_one_percent() {
   local incremental batch
   incremental=$(sg-isam2 --min-obs 3 --chi2 -f chi2 "$1" | tail -n 1)
   batch=$(sg-solve "$1" | sg-solve --chi2)
-  awk -v a="$incremental" -v b="$batch" 'BEGIN { exit !(a < 1.01 * b && a > 0.99 * b) }'
+  near "$incremental" "$batch" 0.01
 }
 
 @test "monocular landmarks stay where their rays meet: chi-square within 1 % of batch" {

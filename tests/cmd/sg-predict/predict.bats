@@ -1,14 +1,13 @@
 load ../common
-bats_require_minimum_version 1.5.0
 
 setup() { cd "$TESTDATA"; }
 
 @test "the closed forms, evaluated by hand" {
   # X = 6 * 10 = 60, L = 3 * 20 = 60: (60 + 60) 60^2; (60 + 30) 30^2; (60 + 540) 30^2
-  run sg-predict --poses 10 --landmarks 20 -r 2 --no-header
+  run -0 sg-predict --poses 10 --landmarks 20 -r 2 --no-header
   [ "$output" = "$(printf '2\t432000\t81000\t540000')" ]
   # X = 30, L = 40
-  run sg-predict --poses 10 --pose-dim 3 --landmarks 20 --landmark-dim 2 -r 1 --no-header -f full,kf,dec
+  run -0 sg-predict --poses 10 --pose-dim 3 --landmarks 20 --landmark-dim 2 -r 1 --no-header -f full,kf,dec
   [ "$output" = "$(printf '63000\t63000\t279000')" ]
 }
 
@@ -19,7 +18,7 @@ setup() { cd "$TESTDATA"; }
 }
 
 @test "scaling a given EC" {
-  run sg-predict --ec 7200 -r 2,6 --no-header
+  run -0 sg-predict --ec 7200 -r 2,6 --no-header
   [ "$output" = "$(printf '2\t7200\t900\t1800\t16200\n6\t7200\t33.333333333333336\t200\t1800')" ]
   [ "$(sg-predict --ec 100 -r 1 walk.g2o | head -n 1 | wc -w)" = 8 ]
 }

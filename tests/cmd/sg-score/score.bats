@@ -4,9 +4,6 @@ setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 
 score() { sg-score --no-header "$@" | tr '\t' ' '; }
 
-# near A B: equal to nine digits
-near() { awk -v a="$1" -v b="$2" 'BEGIN {d = a - b; exit !(d * d <= 1e-18 * (1 + b * b))}'; }
-
 edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; done; }
 
 @test "a tree has one spanning tree, a cycle of n has n, K4 has 16" {
@@ -60,8 +57,7 @@ edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; do
   echo '0.5 0 0 0 0 0 0 1' >half.tum
   fails 1 "sg-score: half.tum:1: a time that is no vertex id: poses are matched by id" \
     sg-score --reference half.tum walk.g2o
-  run sg-score --align sideways walk.g2o
-  [ "$status" -eq 2 ]
+  run -2 sg-score --align sideways walk.g2o
 }
 
 @test "public graphs: keeping all trees of intel, and less of them" {
