@@ -17,6 +17,7 @@ fuzz_packages  := clang libclang-rt-14-dev
 plot_packages  := gnuplot-nox graphviz
 
 .DEFAULT_GOAL := build
+.NOTPARALLEL:  # packages are installed one list after the other
 .PHONY: help deps build demo check mutants install uninstall bench fuzz tsan paper orderings lint format clean
 
 help: ## list the targets

@@ -17,7 +17,9 @@ extern unsigned char* reached;  // by site, kept in the file SGTOOLS_MUTANT_REAC
   reached[k] = 1;
   return active == k;
 }
-[[gnu::always_inline]] inline bool flip(int k, bool condition) { return on(k) != condition; }
+[[gnu::always_inline]] inline bool flip(int k, bool condition) {
+  return on(k) != condition;
+}
 template <class T>
 [[gnu::always_inline]] inline T constant(int k, T number) {
   return on(k) ? static_cast<T>(number + 1) : number;
@@ -46,32 +48,36 @@ template <class Plain, class Mutated>
 }
 template <class T>
 [[gnu::always_inline]] inline auto negative(int k, T&& number) {
-  return choose(k, [&] { return +number; }, [&] { return -number; });
+  return choose(
+      k, [&] { return +number; }, [&] { return -number; });
 }
 template <class T>
-  requires requires(const T& t) { t.eval(); }
+requires requires(const T& t) {
+  t.eval();
+}
 [[gnu::always_inline]] inline auto negative(int k, const T& matrix) {
   using Result = std::remove_cvref_t<decltype(matrix.eval())>;
   return on(k) ? Result(-matrix) : Result(matrix);
 }
 
-#define SGM_OPERATOR(name, op, mutated_op, result)                                                 \
-  struct name {                                                                                    \
-    int k;                                                                                         \
-  };                                                                                               \
-  template <class A>                                                                               \
-  struct name##_left {                                                                             \
-    A&& a;                                                                                         \
-    int k;                                                                                         \
-  };                                                                                               \
-  template <class A>                                                                               \
-  [[gnu::always_inline]] inline name##_left<A> operator op(A&& a, name tag) {                      \
-    return {static_cast<A&&>(a), tag.k};                                                           \
-  }                                                                                                \
-  template <class A, class B>                                                                      \
-  [[gnu::always_inline]] inline result operator op(name##_left<A> left, B&& b) {                   \
-    return choose(left.k, [&]() -> decltype(auto) { return static_cast<A&&>(left.a) op b; },       \
-                  [&]() -> decltype(auto) { return static_cast<A&&>(left.a) mutated_op b; });      \
+#define SGM_OPERATOR(name, op, mutated_op, result)                                  \
+  struct name {                                                                     \
+    int k;                                                                          \
+  };                                                                                \
+  template <class A>                                                                \
+  struct name##_left {                                                              \
+    A&& a;                                                                          \
+    int k;                                                                          \
+  };                                                                                \
+  template <class A>                                                                \
+  [[gnu::always_inline]] inline name##_left<A> operator op(A&& a, name tag) {       \
+    return {static_cast<A&&>(a), tag.k};                                            \
+  }                                                                                 \
+  template <class A, class B>                                                       \
+  [[gnu::always_inline]] inline result operator op(name##_left<A> left, B&& b) {    \
+    return choose(                                                                  \
+        left.k, [&]() -> decltype(auto) { return static_cast<A&&>(left.a) op b; },  \
+        [&]() -> decltype(auto) { return static_cast<A&&>(left.a) mutated_op b; }); \
   }
 SGM_OPERATOR(lt, <, <=, bool)
 SGM_OPERATOR(le, <=, <, bool)
