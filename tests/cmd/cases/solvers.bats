@@ -22,22 +22,19 @@ chain() {
 }
 
 @test "a chi-square of 0 is an optimum: no step is wasted on it" {
-  run sg-solve 04-gtsam-labeled-ids.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve 04-gtsam-labeled-ids.g2o -o solved.g2o
   [ -z "$output" ]
   near "$(sg-solve --chi2 solved.g2o)" 0
   chain 3000 > chain.g2o
-  run sg-solve -v chain.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve -v chain.g2o -o solved.g2o
   [ "${#lines[@]}" -le 4 ]
   [[ ${lines[-1]} == "sg-solve: converged after "* ]]
 }
 
 @test "odometry alone is solved in one step" {
-  run sg-solve -v --gn --init 71-odometry-only-2d.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve -v --gn --init 71-odometry-only-2d.g2o -o solved.g2o
   [[ ${lines[-1]} == "sg-solve: converged after 1 iteration, "* ]]
-  run sg-solve -v --gn 71-odometry-only-2d.g2o -o solved.g2o
+  run -0 sg-solve -v --gn 71-odometry-only-2d.g2o -o solved.g2o
   [[ ${lines[-1]} == "sg-solve: converged after "* ]]
   near "$(sg-solve --chi2 solved.g2o)" 0
 }
@@ -57,8 +54,7 @@ chain() {
 }
 
 @test "a constant landmark lets the whole turn: a pose is held, too" {
-  run sg-solve 98-fix-landmark-only.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve 98-fix-landmark-only.g2o -o solved.g2o
   [ -z "$output" ]
   grep -qx "VERTEX_XY 5 1 1" solved.g2o
   grep -qx "VERTEX_SE2 0 0 0 0" solved.g2o
@@ -72,14 +68,12 @@ chain() {
   grep -v 'PRIOR_SE2_XY [12]' 78-utm.g2o > one.g2o
   near "$(chi2 sg-solve one.g2o)" "$(sed '/^VERTEX_SE2 0/a FIX 0' one.g2o | sg-solve | sg-solve --chi2)" 1e-6
   # A replay needs a gauge before the second prior: told.
-  run sg-isam2 -f step --no-header 78-utm.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-isam2 -f step --no-header 78-utm.g2o
   [[ $output == "sg-isam2: the first pose is held"* ]]
 }
 
 @test "a free scale is told, and solved by damping alone" {
-  run sg-solve 63-ba-monocular-scale.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve 63-ba-monocular-scale.g2o -o solved.g2o
   [[ $output == "sg-solve: nothing fixes the scale: "* ]]
   [ "${#lines[@]}" -eq 1 ]
   awk -v x="$(sg-solve --chi2 solved.g2o)" 'BEGIN { exit !(x < 1e-3) }'
@@ -87,14 +81,12 @@ chain() {
     sg-solve --gn 63-ba-monocular-scale.g2o
   # A second constant pose, or a length, fixes it.
   { cat 63-ba-monocular-scale.g2o; echo "FIX 1"; } > fixed.g2o
-  run sg-solve fixed.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve fixed.g2o -o solved.g2o
   [ -z "$output" ]
 }
 
 @test "long steps with tight information are solved, not called undetermined" {
-  run sg-solve 77-long-steps-tight.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve 77-long-steps-tight.g2o -o solved.g2o
   [ -z "$output" ]
   for call in -q --gn "--backend cholmod" "--gn --backend qr" "--gn --init"; do
     awk -v x="$(sg-solve $call 77-long-steps-tight.g2o | sg-solve --chi2)" 'BEGIN { exit !(x < 1e-6) }'
@@ -121,8 +113,7 @@ chain() {
   fails 3 "sg-solve: the system is singular: the measurements leave vertex 5000 undetermined; add edges or FIX lines, or leave it out" \
     sg-solve turn.g2o
   chain 200000 > chain.g2o
-  run sg-solve chain.g2o -o solved.g2o
-  [ "$status" -eq 0 ]
+  run -0 sg-solve chain.g2o -o solved.g2o
   [ -z "$output" ]
 }
 
