@@ -1,6 +1,6 @@
 # SuiteSparse as Debian packages it (no CMake package of its own before SuiteSparse 7): SuiteSparse::SuiteSparse.
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
-foreach(part cholmod amd camd colamd ccolamd suitesparseconfig)
+foreach(part spqr cholmod amd camd colamd ccolamd suitesparseconfig)
   find_library(SuiteSparse_${part}_LIBRARY ${part})
   list(APPEND SuiteSparse_LIBRARIES ${SuiteSparse_${part}_LIBRARY})
   list(APPEND SuiteSparse_required SuiteSparse_${part}_LIBRARY)

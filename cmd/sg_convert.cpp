@@ -1,7 +1,10 @@
 // sg-convert: write a graph in another format.
+#include <algorithm>
+
 #include "cmd/common/command.h"
 #include "formats/convert.h"
 #include "lib/factor/initialize.h"
+#include "lib/solve/undetermined.h"
 
 namespace {
 
@@ -15,12 +18,22 @@ struct Options {
 };
 
 // The graph with a VERTEX line for every vertex, its estimate composed from the edges.
-sg::Graph with_estimates(const sg::Graph& graph, sg::ReadOptions options) {
+sg::Graph with_estimates(const sg::Command& command, const sg::Graph& graph,
+                         sg::ReadOptions options) {
   const sg::Problem problem = sg::make_problem(graph);
-  const sg::Values values = sg::start_values(problem);
+  const sg::Composed start = sg::compose(problem);
+  if (!start.adrift.empty()) {
+    std::vector<sg::Id> ids;
+    for (sg::Index v : start.adrift) ids.push_back(graph.id[v]);
+    std::ranges::sort(ids);
+    sg::warn(
+        command,
+        graph.file + ": no edge places " + sg::id_ranges(ids) +
+            " beside the poses before: at the origin (sg-solve moves them to where they belong)");
+  }
   std::string text;
   for (sg::Index v = 0; v < graph.vertices(); ++v) {
-    text += sg::vertex_line(problem, values, v);
+    text += sg::vertex_line(problem, start.values, v);
   }
   text += graph.text.view;
   options.format = "g2o";
@@ -47,7 +60,7 @@ void convert(const sg::Command& command, const Options& options) {
   sg::Graph graph = sg::read(options.input);
   report_losses(command, options, graph);
   if (graph.edges_only && (options.estimates || options.to == "tum"))
-    graph = with_estimates(graph, options.input.options);
+    graph = with_estimates(command, graph, options.input.options);
   sg::Output output(options.output.path);
   format.write(graph, options.write, output);
   output.commit();

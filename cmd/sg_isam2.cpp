@@ -7,6 +7,7 @@
 #include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
+#include "lib/factor/gauge.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_replay.h"
@@ -155,6 +156,16 @@ void write_graph(const sg::Command& command, const Options& options, const sg::P
                      sg::estimate_changes(problem, values, moved));
 }
 
+// A replay needs its gauge from the first step on; what holds the whole graph may come later.
+void hold_at_first(const sg::Command& command, sg::Problem& problem) {
+  if (problem.held >= 0 || sg::holds_first_pose(problem, sg::start_values(problem))) return;
+  sg::hold_first_pose(problem);
+  sg::warn(command,
+           "the first pose is held, since nothing holds it in the first step; sg-solve lets go of "
+           "it, since "
+           "later edges hold the whole");
+}
+
 void run(const sg::Command& command, const Options& options) {
   sg::kernels();  // a wrong call is told before a long read
   sg::Output output("");
@@ -162,7 +173,8 @@ void run(const sg::Command& command, const Options& options) {
       {"--colamd", options.colamd}, {"--chi2", options.chi2}, {"--batch", options.batch}};
   sg::Table table(options.table, columns, given, output);
   const sg::Graph graph = sg::read(options.input);
-  const sg::Problem problem = sg::make_problem(graph);
+  sg::Problem problem = sg::make_problem(graph);
+  hold_at_first(command, problem);
   sg::Isam2Replay state =
       sg::make_isam2_replay(problem, options.isam, options.min_obs, options.from_file);
   try {

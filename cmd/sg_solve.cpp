@@ -1,10 +1,13 @@
 // sg-solve: optimize a graph in batch; or time its elimination, or tell its chi-square.
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "cmd/common/command.h"
 #include "cmd/common/estimates.h"
@@ -51,7 +54,7 @@ struct Options {
   sg::OutputOptions output;
   sg::TableOptions table;
   bool gauss_newton = false;
-  int iterations = 100;
+  std::optional<int> iterations;  // as many, whether that is enough or not
   double tolerance = 1e-9;
   std::string kernel;
   sg::MethodOptions method;
@@ -60,13 +63,18 @@ struct Options {
   int runs = 0;
   bool chi2 = false;
   bool from_edges = false;
+  bool keep = false;
 };
+
+constexpr int most_iterations = 100;
 
 void add_options(sg::Command& command, Options& options) {
   sg::add_input(command, options.input);
   auto& app = command.app;
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
-  app.add_option("-i,--iterations", options.iterations, "At most N iterations (default: 100)")
+  app.add_option(
+         "-i,--iterations", options.iterations,
+         "At most N iterations, and write what they reach\n(default: 100, which have to converge)")
       ->option_text("N")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--tolerance", options.tolerance,
@@ -82,6 +90,7 @@ void add_options(sg::Command& command, Options& options) {
       ->option_text("N")
       ->check(CLI::PositiveNumber);
   app.add_flag("--init", options.from_edges, "Start from the edges alone, not from the file");
+  app.add_flag("--keep", options.keep, "Write the graph even if it did not converge");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
@@ -107,7 +116,7 @@ sg::BatchOptions batch_options(const Options& options) {
   sg::BatchOptions batch;
   batch.method =
       options.gauss_newton ? sg::BatchMethod::gauss_newton : sg::BatchMethod::levenberg_marquardt;
-  batch.iterations = options.iterations;
+  batch.iterations = options.iterations.value_or(most_iterations);
   batch.tolerance = options.tolerance;
   batch.kernel = parse_kernel(options.kernel);
   return batch;
@@ -141,7 +150,7 @@ void print_times(const Options& options, const sg::Problem& problem, const sg::V
   std::vector<double> times;
   for (int k = 0; k < options.runs; ++k) {
     const auto begin = std::chrono::steady_clock::now();
-    if (!solver.eliminate(system, {})) throw sg::singular_error(problem, order, system);
+    if (!solver.eliminate(system, {})) throw sg::singular_error(problem, values, system);
     times.push_back(seconds_since(begin));
   }
   table.row({label, options.backend, options.threads, pattern.variables(), problem.graph->edges(),
@@ -166,34 +175,72 @@ std::vector<bool> moved(const sg::Problem& problem) {
   return result;
 }
 
+std::string rounded(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", number);
+  return text;
+}
+
+// How it went, in a line.
+void tell(const sg::Command& command, const sg::BatchResult& result, double seconds) {
+  if (command.quiet || !(command.verbose || ::isatty(STDERR_FILENO) != 0)) return;
+  std::cerr << command.name << ": " << (result.converged ? "converged" : "not converged")
+            << " after " << result.iterations
+            << (result.iterations == 1 ? " iteration, " : " iterations, ") << rounded(seconds)
+            << " s: chi-square from " << rounded(result.initial_chi2) << " to "
+            << rounded(result.chi2) << (result.by_qr ? ", by QR" : "") << '\n';
+}
+
+// Without an -i of the user's, iterations that do not converge are an error: what they reach is of no use.
+void check_converged(const sg::Command& command, const Options& options,
+                     const sg::BatchResult& result) {
+  if (result.converged) return;
+  const std::string cause = "not converged after " + std::to_string(result.iterations) +
+                            " iterations, chi-square " + sg::format_number(result.chi2);
+  if (options.iterations || options.keep) return sg::warn(command, cause);
+  throw sg::computation_error(
+      cause + ", from " + sg::format_number(result.initial_chi2) +
+      "; nothing is written (--keep would): try " +
+      (options.gauss_newton ? "it without --gn, " : "--gn, ") +
+      (options.from_edges ? "the file's start (without --init)" : "--init") +
+      ", --kernel cauchy:1, or more iterations (-i N)");
+}
+
 void solve(const sg::Command& command, const Options& options, const sg::Problem& problem,
            sg::Values values) {
+  const auto begin = std::chrono::steady_clock::now();
   const sg::Order order = named_order(options, *problem.graph).order;
   sg::LinearSystem system = sg::make_linear_system(problem);
   const auto solver = sg::find_backend(options.backend).make(system, order, options.threads);
-  sg::Progress progress(command.name, "iteration", options.iterations);
+  const sg::BatchOptions batch = batch_options(options);
+  std::optional<sg::Progress> progress(std::in_place, command.name, "iteration", batch.iterations);
   std::function<void(const sg::Iteration&)> report = [&](const sg::Iteration& iteration) {
-    progress.update(iteration.number);
+    progress->update(iteration.number);
   };
   if (command.verbose) {
-    const sg::Kernel kernel = parse_kernel(options.kernel);
     std::cerr << "iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n";
-    print_iteration({0, sg::chi2(problem, values, kernel), 0, 0, true, 0, 0});
+    print_iteration({0, sg::chi2(problem, values, batch.kernel), 0, 0, true, 0, 0});
     report = print_iteration;
   }
-  const sg::BatchResult result =
-      sg::optimize(problem, order, system, solver, batch_options(options), values, report);
-  if (!result.converged) {
-    sg::warn(command, "not converged after " + std::to_string(result.iterations) +
-                          " iterations, chi-square " + sg::format_number(result.chi2));
+  const sg::BatchResult result = sg::optimize(problem, system, solver, batch, values, report);
+  progress.reset();
+  check_converged(command, options, result);
+  if (result.scale_free) {
+    sg::warn(
+        command,
+        "nothing fixes the scale: it stays near the start's (FIX a second pose, or add an edge "
+        "that measures a length)");
   }
   sg::write_filtered(command, options.output, *problem.graph,
                      sg::estimate_changes(problem, values, moved(problem)));
+  tell(command, result, seconds_since(begin));
 }
 
 void run(const sg::Command& command, const Options& options) {
   parse_kernel(options.kernel);  // a wrong call is told before a long read
   if (options.chi2 && options.runs > 0) throw sg::usage_error("--chi2 or --time, not both");
+  if (options.keep && (options.chi2 || options.runs > 0))
+    throw sg::usage_error("--keep belongs to optimizing, not to --chi2 or --time");
   sg::find_backend(options.backend);
   sg::check(options.method);
   sg::kernels();

@@ -99,19 +99,27 @@ void place_reached(Spread& spread) {
   }
 }
 
-void place_all(Spread& spread) {
+// From what is placed; then from the first in each part that its own prior places; what is left of a
+// part without one starts where it is.
+void place_all(Spread& spread, std::vector<Index>& adrift) {
   const Graph& graph = *spread.problem.graph;
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (spread.placed[v]) reach_neighbours(spread, v);
   }
   place_reached(spread);
-  for (Index v = 0; v < graph.vertices(); ++v) {
-    if (spread.placed[v] || graph.role(v) != spread.role) continue;
-    // A component's first: where its own prior puts it, else it stays at the origin.
-    place_vertex(spread.problem, v, spread.at[v], spread.placed, spread.values);
-    spread.placed[v] = true;
-    reach_neighbours(spread, v);
-    place_reached(spread);
+  bool alone = std::ranges::none_of(spread.placed, [](bool placed) { return placed; });
+  for (const bool by_prior : {true, false}) {
+    for (Index v = 0; v < graph.vertices(); ++v) {
+      if (spread.placed[v] || graph.role(v) != spread.role) continue;
+      const bool known =
+          place_vertex(spread.problem, v, spread.at[v], spread.placed, spread.values);
+      if (!known && by_prior) continue;
+      if (!known && !alone) adrift.push_back(v);
+      alone = false;
+      spread.placed[v] = true;
+      reach_neighbours(spread, v);
+      place_reached(spread);
+    }
   }
 }
 
@@ -160,29 +168,31 @@ bool place_vertex(const Problem& problem, Index v, std::span<const Index> edges,
   return place_by_rays(problem, v, edges, placed, values);
 }
 
-Values initial_values(const Problem& problem) {
+Composed compose(const Problem& problem) {
   const Graph& graph = *problem.graph;
-  Values values(problem.value_at.back());
   std::vector<bool> placed(graph.vertices(), false);
-  for (Index v = 0; v < graph.vertices(); ++v) {
-    double* const x = values.data() + problem.value_at[v];
-    set_origin(problem.space[v], x);
-  }
-  if (!graph.edges_only) {
-    const Values given = file_values(problem);
+  Composed result;
+  Values& values = result.values;
+  if (graph.edges_only) {
+    values.resize(problem.value_at.back());
     for (Index v = 0; v < graph.vertices(); ++v) {
-      if (!graph.fixed[v]) continue;
-      std::copy(given.begin() + problem.value_at[v], given.begin() + problem.value_at[v + 1],
-                values.begin() + problem.value_at[v]);
-      placed[v] = true;
+      set_origin(problem.space[v], values.data() + problem.value_at[v]);
     }
+  } else {
+    values = file_values(problem);
+    placed = graph.fixed;
+    if (problem.held >= 0) placed[problem.variables.variable_vertex[problem.held]] = true;
   }
   const Lists<> at = incidence(graph);
   for (Role role : {Role::pose, Role::landmark, Role::other}) {
     Spread spread{problem, at, role, placed, values};
-    place_all(spread);
+    place_all(spread, result.adrift);
   }
-  return values;
+  return result;
+}
+
+Values initial_values(const Problem& problem) {
+  return compose(problem).values;
 }
 
 Values start_values(const Problem& problem) {

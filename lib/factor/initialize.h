@@ -1,7 +1,9 @@
 // Initial estimates where the file has none, or where they are to be ignored.
 //
-// Poses are composed along edges between poses, the predecessor's odometry first; a component
-// starts at its first pose's prior, or at the origin. A landmark stands where its first observation
+// Poses are composed along edges between poses, the predecessor's odometry first, from those that
+// are constants or held, and stay where the file has them: the gauge is held where estimates are
+// composed from. Another component starts at the first of its poses that a prior places, else its
+// first pose stays where the file has it, or at the origin. A landmark stands where its first observation
 // that tells puts it; from bearings and pixels alone it is triangulated: the point with the least
 // sum of squared distances to the lines of sight (Hartley, Sturm: Triangulation, 1997, the linear
 // method on normalized rays); a single line of sight, or nearly parallel ones, put it at a range of
@@ -17,9 +19,14 @@ namespace sg {
 
 constexpr double lone_range = 2;
 
-// Estimates of every vertex, from the edges alone. FIXed vertices keep their line's estimate if
-// they have one.
-Values initial_values(const Problem& problem);
+// Estimates of every vertex, from the edges alone.
+struct Composed {
+  Values values;
+  std::vector<Index> adrift;  // vertices that no edge places beside those before them: where they
+                              // start says nothing
+};
+Composed compose(const Problem& problem);
+Values initial_values(const Problem& problem);  // without telling
 
 // The file's estimates where it has VERTEX lines, initial_values otherwise: where every solver
 // starts.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "lib/factor/gauge.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/whitening.h"
 #include "lib/geometry/numbers.h"
@@ -163,35 +164,29 @@ void lay_out_values(Problem& problem) {
   }
 }
 
-// A unary edge that measures as much as its pose has dimensions.
-bool holds_a_pose(const Problem& problem, Index e) {
-  const auto ends = problem.graph->edge(e);
-  return ends.size() == 1 && problem.graph->role(ends[0]) == Role::pose &&
-         problem.model[e]->dim == problem.graph->dim(ends[0]);
-}
-
-// The variable to hold, -1 if something holds the graph already.
-Index free_gauge(const Problem& problem) {
+// Whether the first pose has to be held, decided at the estimates of the file and, where these are
+// degenerate (all at the origin), at composed ones.
+bool is_free(const Problem& problem) {
   const Graph& graph = *problem.graph;
-  if (!graph.fix_lines.empty()) return -1;
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (holds_a_pose(problem, e)) return -1;
-  }
+  bool anchored = false, poses = false;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (graph.role(v) == Role::pose) return problem.variables.vertex_variable[v];
+    if (graph.fixed[v] && graph.role(v) == Role::pose) return false;
+    anchored |= graph.fixed[v];
+    poses |= graph.role(v) == Role::pose;
   }
-  return graph.vertices() > 0 ? 0 : -1;
+  if (anchored && !poses) return false;
+  for (Index e = 0; e < graph.edges(); ++e) anchored |= is_anchor(problem, e);
+  if (!anchored) return true;
+  return !holds_gauge(problem, start_values(problem)) &&
+         (graph.edges_only || !holds_gauge(problem, initial_values(problem)));
 }
 
 void lay_out_variables(Problem& problem) {
   problem.variables = graph_pattern(*problem.graph);
-  problem.held = free_gauge(problem);
-  Pattern& pattern = problem.variables.pattern;
-  if (problem.held >= 0) {
-    pattern.rows.add(std::array{problem.held});
-  }
   problem.step_at.push_back(0);
-  for (int dim : pattern.dim) problem.step_at.push_back(problem.step_at.back() + dim);
+  for (int dim : problem.variables.pattern.dim)
+    problem.step_at.push_back(problem.step_at.back() + dim);
+  if (is_free(problem)) hold_first_pose(problem);
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 // vertex order. Variables are graph_pattern's: the vertices that are not fixed, by ascending id.
 // Factors are the graph's edges, in file order.
 //
-// Gauge. Relative measurements leave the whole free to move. Unless something holds it (a FIX line,
-// or a unary edge that measures all of a pose), the first pose is held: it stays a variable of the
-// system, so that the structure (and its elimination complexity) is the graph's own, but its
-// columns are zero and an extra last row says that its step is zero. g2o decides by the same rule,
-// and then fixes a vertex of its choice.
+// Gauge. Relative measurements leave the whole free to move. Unless something holds it (a pose with a
+// FIX line, or measurements that notice every motion of the whole: gauge.h), the first pose is held:
+// it stays a variable of the system, so that the structure (and its elimination complexity) is the
+// graph's own, but its columns are zero and an extra last row says that its step is zero. g2o holds a
+// vertex of its choice.
 #pragma once
 
 #include <string>

@@ -22,6 +22,12 @@ constexpr bool has_steps(Space space) {
          space == Space::xy || space == Space::xyz;
 }
 
+// Whether a scalar of a step turns, in radians or halves of them; the others move, in metres.
+constexpr bool is_turn(Space space, int scalar) {
+  if (space == Space::expmap) return scalar < 3;
+  return (space == Space::se2 && scalar == 2) || (space == Space::se3 && scalar >= 3);
+}
+
 // x := x (+) step.
 void retract(Space space, const double* step, double* x);
 

@@ -1,21 +1,29 @@
 #include "lib/solve/batch.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "lib/factor/gauge.h"
 #include "lib/solve/normal_equations.h"
 #include "lib/solve/undetermined.h"
+#include "lib/text/words.h"
 
 namespace sg {
 namespace {
 
 constexpr double first_lambda = 1e-4;
-constexpr double least_lambda = 1e-12;
+constexpr double least_lambda = 1e-20;
 constexpr double largest_lambda = 1e12;
+// Of what is ill-conditioned: more damps away what little holds it.
+constexpr double first_lambda_by_qr = 1e-14;
+
+constexpr double flat = 1e-14;  // cosine of the angle between a column of A and what is left of b
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 double norm(const std::vector<double>& v) {
   return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
@@ -34,24 +42,49 @@ struct Stopwatch {
 // What the iterations of both methods share.
 struct Run {
   const Problem& problem;
-  const Order& order;
   LinearSystem& system;
-  const LinearSolver& solver;
+  LinearSolver solver;
   const BatchOptions& options;
   Values& values;
   const std::function<void(const Iteration&)>& report;
-  double chi2;
-  std::vector<double> step{};
+  BatchResult result;
+  std::vector<double> step{}, diagonal{}, gradient{};
 };
 
-void check_finite(double chi2) {
-  if (!std::isfinite(chi2)) {
-    throw computation_error("the iterations diverge: the estimate has left the finite numbers");
-  }
+std::vector<Id> variable_ids(const Problem& problem) {
+  std::vector<Id> id;
+  for (Index v : problem.variables.variable_vertex) id.push_back(problem.graph->id[v]);
+  return id;
+}
+
+Error diverged(const Run& run) {
+  std::string cause = "the iterations diverge: chi-square " + format_number(run.result.chi2) +
+                      " after " + std::to_string(run.result.iterations) + ", from " +
+                      format_number(run.result.initial_chi2) + "; start elsewhere (--init)";
+  if (run.options.method == BatchMethod::gauss_newton) cause += ", or leave out --gn";
+  return computation_error(cause);
+}
+
+void check_finite(const Run& run) {
+  if (!std::isfinite(run.result.chi2)) throw diverged(run);
 }
 
 void relinearize(Run& run) {
   linearize(run.problem, run.values, run.options.kernel, run.system);
+  diagonal_and_gradient(run.system, run.diagonal, run.gradient);
+}
+
+// The system of the start is eliminated without damping, which hides what the measurements leave undetermined.
+void eliminate_start(Run& run) {
+  if (run.solver.eliminate(run.system, {})) return;
+  const auto scaling = free_scaling(run.problem, run.values, run.system);
+  const NullSpace open = null_space(run.system, scaling);
+  run.result.by_qr = open.dimension == 0;
+  if (run.result.by_qr) run.solver = qr_solver(run.system, {}, 1);
+  if (run.result.by_qr && run.solver.eliminate(run.system, {})) return;
+  const bool damped = run.options.method == BatchMethod::levenberg_marquardt;
+  run.result.scale_free = damped && open.scale && open.undetermined.empty() && open.lost.empty();
+  if (!run.result.scale_free) throw singular_error(open, variable_ids(run.problem));
 }
 
 bool small_change(const Run& run, double before, double after) {
@@ -59,26 +92,96 @@ bool small_change(const Run& run, double before, double after) {
   return std::abs(before - after) <= run.options.tolerance * (std::min(before, after) + tiny);
 }
 
+bool is_flat(const Run& run) {
+  const double residual = std::sqrt(run.result.chi2);
+  for (std::size_t k = 0; k < run.gradient.size(); ++k) {
+    if (std::abs(run.gradient[k]) > flat * residual * std::sqrt(run.diagonal[k])) return false;
+  }
+  return true;
+}
+
+// How far rounding alone moves every scalar of a step: half a unit in the last place of the largest coordinate, or of a
+// radian, and some more for what is calculated with them.
+std::vector<double> rounding_of_estimate(const Run& run) {
+  const Problem& problem = run.problem;
+  double extent = 0;
+  for (Index v = 0; v < problem.graph->vertices(); ++v) {
+    const double* const x = run.values.data() + problem.value_at[v];
+    for (int k = 0; k < space_dim(problem.space[v]) && k < 3; ++k) {
+      if (!is_turn(problem.space[v], k)) extent = std::max(extent, std::abs(x[k]));
+    }
+  }
+  std::vector<double> size;
+  for (Index v : problem.variables.variable_vertex) {
+    for (int k = 0; k < space_dim(problem.space[v]); ++k)
+      size.push_back(2 * rounding * (is_turn(problem.space[v], k) ? 1 : extent));
+  }
+  return size;
+}
+
+// Whether chi2 is what such moves make of 0.
+bool is_zero(const Run& run, const std::vector<double>& moves) {
+  double sum = 0;
+  for (Index r = 0; r < run.problem.graph->edges(); ++r) {
+    const double* number = run.system.block(r);
+    std::array<double, max_dim> most{};
+    for (Index j : run.system.pattern->rows[r]) {
+      for (Index k = run.problem.step_at[j]; k < run.problem.step_at[j + 1]; ++k) {
+        for (int i = 0; i < run.system.height[r]; ++i) most[i] += std::abs(*number++) * moves[k];
+      }
+    }
+    sum += std::inner_product(most.begin(), most.end(), most.begin(), 0.0);
+  }
+  return run.result.chi2 <= sum;
+}
+
+// After a step.
+bool is_there(const Run& run, double before, double after) {
+  if (small_change(run, before, after)) return true;
+  const std::vector<double> moves = rounding_of_estimate(run);
+  return std::ranges::equal(run.step, moves,
+                            [](double d, double most) { return std::abs(d) <= most; }) ||
+         is_zero(run, moves);
+}
+
 void tell(const Run& run, const Iteration& iteration) {
   if (run.report) run.report(iteration);
 }
 
-bool gauss_newton(Run& run, int& done) {
-  while (done < run.options.iterations) {
+// The step that the system promises. Where the start's was regular and this one is not, the iterations went astray.
+void gauss_newton_step(Run& run) {
+  if (run.result.iterations == 0) {
+    eliminate_start(run);
+  } else if (!run.solver.eliminate(run.system, {})) {
+    if (run.result.by_qr || null_space(run.system).dimension > 0) throw diverged(run);
+    run.result.by_qr = true;
+    run.solver = qr_solver(run.system, {}, 1);
+    if (!run.solver.eliminate(run.system, {})) throw diverged(run);
+  }
+  run.solver.back_substitute(run.step);
+}
+
+bool gauss_newton(Run& run) {
+  BatchResult& result = run.result;
+  while (result.iterations < run.options.iterations) {
     Stopwatch watch;
-    relinearize(run);
-    const double linearize_s = watch.lap();
-    if (!run.solver.eliminate(run.system, {})) {
-      throw singular_error(run.problem, run.order, run.system);
+    try {
+      relinearize(run);
+    } catch (const Error&) {  // far out, edges have no derivative, or weigh too much
+      if (result.iterations == 0 || result.chi2 <= result.initial_chi2) throw;
+      throw diverged(run);
     }
-    run.solver.back_substitute(run.step);
+    const double linearize_s = watch.lap();
+    gauss_newton_step(run);
+    if (is_flat(run)) return true;
     const double eliminate_s = watch.lap();
     retract(run.problem, run.step, run.values);
     const double before =
-        std::exchange(run.chi2, chi2(run.problem, run.values, run.options.kernel));
-    tell(run, {++done, run.chi2, 0, norm(run.step), true, linearize_s, eliminate_s});
-    check_finite(run.chi2);
-    if (small_change(run, before, run.chi2)) return true;
+        std::exchange(result.chi2, chi2(run.problem, run.values, run.options.kernel));
+    tell(run,
+         {++result.iterations, result.chi2, 0, norm(run.step), true, linearize_s, eliminate_s});
+    check_finite(run);
+    if (is_there(run, before, result.chi2)) return true;
   }
   return false;
 }
@@ -107,28 +210,26 @@ double promised(const std::vector<double>& gradient, const std::vector<double>& 
   return sum;
 }
 
-// Damping hides what the measurements leave undetermined: ask once without.
-void check_regular(Run& run) {
+bool levenberg_marquardt(Run& run) {
+  BatchResult& result = run.result;
+  Stopwatch watch;
   relinearize(run);
-  if (!run.solver.eliminate(run.system, {})) {
-    throw singular_error(run.problem, run.order, run.system);
-  }
-}
-
-bool levenberg_marquardt(Run& run, int& done) {
-  check_regular(run);
+  double linearize_s = watch.lap();
+  eliminate_start(run);
+  if (is_flat(run)) return true;
   Damping damping;
-  std::vector<double> diagonal, gradient, added(run.problem.step_at.back());
-  bool stale = true;  // the system is not that of the values
-  double linearize_s = 0;
-  while (done < run.options.iterations && damping.lambda < largest_lambda) {
-    Stopwatch watch;
+  if (result.by_qr) damping.lambda = first_lambda_by_qr;
+  std::vector<double> added(run.problem.step_at.back());
+  bool stale = false;  // the system is not that of the values
+  while (result.iterations < run.options.iterations && damping.lambda < largest_lambda) {
+    watch.lap();
     if (stale) {
       relinearize(run);
-      diagonal_and_gradient(run.system, diagonal, gradient);
       linearize_s = watch.lap();
+      if (is_flat(run)) return true;
     }
-    std::ranges::transform(diagonal, added.begin(), [&](double d) { return damping.lambda * d; });
+    std::ranges::transform(run.diagonal, added.begin(),
+                           [&](double d) { return damping.lambda * d; });
     const double lambda = damping.lambda;
     stale = false;
     if (!run.solver.eliminate(run.system, added)) {
@@ -139,16 +240,16 @@ bool levenberg_marquardt(Run& run, int& done) {
     const double eliminate_s = watch.lap();
     Values trial = run.values;
     retract(run.problem, run.step, trial);
-    const double after = chi2(run.problem, trial, run.options.kernel), before = run.chi2;
+    const double after = chi2(run.problem, trial, run.options.kernel), before = result.chi2;
     const bool kept = after <= before;
     if (kept) {
       run.values = std::move(trial);
-      run.chi2 = after;
+      result.chi2 = after;
       stale = true;
     }
-    tell(run, {++done, after, lambda, norm(run.step), kept, linearize_s, eliminate_s});
-    const double promise = promised(gradient, added, run.step);
-    if (small_change(run, before, after) || promise <= run.options.tolerance * before) return true;
+    tell(run, {++result.iterations, after, lambda, norm(run.step), kept, linearize_s, eliminate_s});
+    const double promise = promised(run.gradient, added, run.step);
+    if (is_there(run, before, after) || promise <= run.options.tolerance * before) return true;
     kept ? damping.gained((before - after) / promise) : damping.lost();
   }
   return false;
@@ -156,29 +257,23 @@ bool levenberg_marquardt(Run& run, int& done) {
 
 }  // namespace
 
-BatchResult optimize(const Problem& problem, const Order& order, LinearSystem& system,
-                     const LinearSolver& solver, const BatchOptions& options, Values& values,
+BatchResult optimize(const Problem& problem, LinearSystem& system, const LinearSolver& solver,
+                     const BatchOptions& options, Values& values,
                      const std::function<void(const Iteration&)>& report) {
-  Run run{problem, order, system, solver, options, values, report, 0};
-  run.chi2 = chi2(problem, values, options.kernel);
-  if (!std::isfinite(run.chi2)) relinearize(run);  // which names the edge
-  check_finite(run.chi2);
-  BatchResult result{run.chi2, run.chi2, 0, false};
-  result.converged = options.method == BatchMethod::gauss_newton
-                         ? gauss_newton(run, result.iterations)
-                         : levenberg_marquardt(run, result.iterations);
-  result.chi2 = run.chi2;
-  return result;
+  const double start = chi2(problem, values, options.kernel);
+  Run run{problem, system, solver, options, values, report, {start, start, 0, false}};
+  if (!std::isfinite(start)) {
+    relinearize(run);  // which names the edge
+    throw computation_error("the chi-square of the start is not a finite number");
+  }
+  run.result.converged =
+      options.method == BatchMethod::gauss_newton ? gauss_newton(run) : levenberg_marquardt(run);
+  return run.result;
 }
 
-Error singular_error(const Problem& problem, const Order& order, const LinearSystem& system) {
-  const auto& ids = problem.graph->id;
-  std::vector<Id> undetermined;
-  for (Index j : undetermined_variables(system, order)) {
-    undetermined.push_back(ids[problem.variables.variable_vertex[j]]);
-  }
-  return computation_error("the system is singular: the measurements leave " +
-                           id_ranges(undetermined) + " undetermined");
+Error singular_error(const Problem& problem, const Values& values, const LinearSystem& system) {
+  return singular_error(null_space(system, free_scaling(problem, values, system)),
+                        variable_ids(problem));
 }
 
 }  // namespace sg

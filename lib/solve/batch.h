@@ -4,6 +4,12 @@
 // equations and keeps a step only if it lowers the sum; lambda follows the ratio of what was gained to what the
 // linearized system promised (Nielsen, Damping Parameter in Marquardt's Method, 1999; Madsen, Nielsen, Tingleff,
 // Methods for Non-linear Least Squares Problems, 2004, section 3.2).
+//
+// Converged is an estimate that a step changes little (in chi-square, or by nothing but rounding), where the gradient
+// vanishes beside what it is summed up from, or whose chi-square is what rounding leaves of 0.
+//
+// A system whose elimination meets a vanished pivot is judged by its rank (undetermined.h). One that is determined after
+// all is solved by QR from there on; where nothing but the scale is free, damping holds it where it is.
 #pragma once
 
 #include <functional>
@@ -21,7 +27,7 @@ enum class BatchMethod { gauss_newton, levenberg_marquardt };
 struct BatchOptions {
   BatchMethod method = BatchMethod::levenberg_marquardt;
   int iterations = 100;     // at most
-  double tolerance = 1e-9;  // converged: a step changes chi2 by no more than this share of it
+  double tolerance = 1e-9;  // of the share by which a last step changes chi2
   Kernel kernel;
 };
 
@@ -39,16 +45,18 @@ struct BatchResult {
   double chi2;
   int iterations;
   bool converged;
+  bool scale_free = false;  // nothing fixed it: it is near the start's
+  bool by_qr = false;       // normal equations lost too many digits
 };
 
-// Improves `values` in place; calls `report` (if given) after every iteration. Throws a computation Error that names
-// the undetermined vertices of a singular system, one when the estimate leaves the finite numbers, and those of
+// Improves `values` in place; calls `report` (if given) after every iteration. Throws a computation Error that tells a
+// system that leaves vertices undetermined, one that is ill-conditioned, and iterations that diverge; and those of
 // check_row (linearize.h).
-BatchResult optimize(const Problem& problem, const Order& order, LinearSystem& system,
-                     const LinearSolver& solver, const BatchOptions& options, Values& values,
+BatchResult optimize(const Problem& problem, LinearSystem& system, const LinearSolver& solver,
+                     const BatchOptions& options, Values& values,
                      const std::function<void(const Iteration&)>& report = {});
 
-// The Error for a singular system.
-Error singular_error(const Problem& problem, const Order& order, const LinearSystem& system);
+// The Error for a system, linearized at `values`, that a solver could not eliminate.
+Error singular_error(const Problem& problem, const Values& values, const LinearSystem& system);
 
 }  // namespace sg

@@ -30,7 +30,9 @@ void start_vertex(Isam2Replay& replay, Index v, std::span<const Index> edges) {
   const Problem& problem = *replay.problem;
   Values& estimate = replay.isam.estimate;
   double* const x = estimate.data() + problem.value_at[v];
-  const bool keep = replay.start_from_file || problem.graph->fixed[v];
+  const Index j = problem.variables.vertex_variable[v];
+  const bool constant = j < 0 || j == problem.held;
+  const bool keep = replay.start_from_file || (constant && !replay.file.empty());
   if (keep || !place_vertex(problem, v, edges_at(replay, v, edges), replay.placed, estimate)) {
     if (replay.file.empty()) {
       set_origin(problem.space[v], x);
@@ -49,15 +51,12 @@ void start_vertex(Isam2Replay& replay, Index v, std::span<const Index> edges) {
   const Problem& problem = *replay.problem;
   Snapshot snapshot;
   take_snapshot(replay.isam, true, snapshot);
-  const Order order = elimination_order("colamd", snapshot.anchored);
-  std::vector<Id> undetermined;
-  for (Index j : undetermined_variables(snapshot.system, order)) {
-    const Index v = problem.variables.variable_vertex[snapshot.variable[j]];
-    undetermined.push_back(problem.graph->id[v]);
+  std::vector<Id> id;
+  for (Index j : snapshot.variable) {
+    id.push_back(problem.graph->id[problem.variables.variable_vertex[j]]);
   }
-  throw computation_error("step " + std::to_string(step) +
-                          ": the system is singular: the measurements leave " +
-                          id_ranges(undetermined) + " undetermined");
+  throw computation_error("step " + std::to_string(step) + ": " +
+                          singular_error(null_space(snapshot.system), id).what());
 }
 
 }  // namespace

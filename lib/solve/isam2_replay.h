@@ -3,7 +3,7 @@
 // A step's new vertices start from the current estimate: poses composed along odometry, else along
 // another edge of the step; then landmarks and others from their observations (initialize.h). A
 // vertex that no edge of its step places starts where the file has it, or at the origin; so do fixed
-// vertices, which are constants.
+// vertices, which are constants, and the one that holds the gauge.
 #pragma once
 
 #include <vector>

@@ -20,6 +20,7 @@ LinearSolver tree_solver(const LinearSystem& system, const Order& order, int thr
 constexpr std::array table{
     Backend{"tree", "multifrontal Cholesky on the Bayes tree", tree_solver},
     Backend{"cholmod", "supernodal Cholesky by CHOLMOD", cholmod_solver},
+    Backend{"qr", "multifrontal QR by SPQR", qr_solver},
 };
 
 }  // namespace

@@ -35,4 +35,8 @@ std::string backend_names();  // "a, b"
 // Supernodal Cholesky by CHOLMOD (Chen, Davis, Hager, Rajamanickam 2008) on the normal equations in this order.
 LinearSolver cholmod_solver(const LinearSystem& system, const Order& order, int threads);
 
+// Multifrontal QR by SPQR in an order of its own (scaled_qr.h): several times slower, and right where the normal
+// equations of the others have lost the digits that count.
+LinearSolver qr_solver(const LinearSystem& system, const Order& order, int threads);
+
 }  // namespace sg

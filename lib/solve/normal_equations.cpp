@@ -7,12 +7,6 @@
 namespace sg {
 namespace {
 
-std::vector<Index> starts(const std::vector<int>& dim) {
-  std::vector<Index> at(dim.size() + 1, 0);
-  std::partial_sum(dim.begin(), dim.end(), at.begin() + 1);
-  return at;
-}
-
 double dot(const double* a, const double* b, int n) {
   double sum = 0;
   for (int k = 0; k < n; ++k) sum += a[k] * b[k];
@@ -81,6 +75,12 @@ void add_row(const LinearSystem& system, Index r, NormalEquations& normal) {
 }
 
 }  // namespace
+
+std::vector<Index> starts(const std::vector<int>& dim) {
+  std::vector<Index> at(dim.size() + 1, 0);
+  std::partial_sum(dim.begin(), dim.end(), at.begin() + 1);
+  return at;
+}
 
 NormalEquations normal_structure(const LinearSystem& system, const Order& order) {
   const Pattern& pattern = *system.pattern;

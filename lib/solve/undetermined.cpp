@@ -3,70 +3,160 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "lib/solve/normal_equations.h"
-#include "lib/sparse/cholesky.h"
+#include "lib/solve/scaled_qr.h"
 
 namespace sg {
 namespace {
 
 constexpr std::size_t most_ranges = 20;  // in a message
-constexpr double held_pivot = 1e-12;     // what a vanished pivot becomes, beside entries of 1
-constexpr double noticeable = 1e-6;      // share of the largest movement
+constexpr int draws = 3;             // of vectors of the null space: none hides a variable thrice
+constexpr double noticeable = 1e-6;  // share of the largest movement in its part
+constexpr double rounding = 1e-12;   // |A z| beside |z|, all columns of unit length
 
-// H := S H S with a unit diagonal. A scalar that nothing measures gets none: its pivot will vanish.
-void scale_to_unit_diagonal(NormalEquations& normal) {
-  std::vector<double> scale(normal.scalars());
-  for (int k = 0; k < normal.scalars(); ++k) {
-    const double diagonal = normal.numbers[normal.column_begin[k + 1] - 1];
-    scale[k] = diagonal > 0 ? 1 / std::sqrt(diagonal) : 0;
-  }
-  for (int k = 0; k < normal.scalars(); ++k) {
-    for (int at = normal.column_begin[k]; at < normal.column_begin[k + 1]; ++at) {
-      normal.numbers[at] *= scale[k] * scale[normal.rows[at]];
+// The parts of a pattern: no row has variables of two of them. By variable, its part's first.
+std::vector<Index> parts(const Pattern& pattern) {
+  std::vector<Index> part(pattern.variables());
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](Index j) {
+    while (part[j] != j) j = part[j] = part[part[j]];
+    return j;
+  };
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    for (Index j : pattern.rows[r]) {
+      const auto [first, second] = std::minmax({root(j), root(pattern.rows[r].front())});
+      part[second] = first;
     }
+  }
+  for (Index j = 0; j < pattern.variables(); ++j) part[j] = root(j);
+  return part;
+}
+
+// Sums by part of what `of` gives for every item, whose part is `part_of`.
+std::vector<double> sums(std::size_t parts, Index items, const auto& part_of, const auto& of) {
+  std::vector<double> sum(parts, 0.0);
+  for (Index k = 0; k < items; ++k) sum[part_of(k)] += of(k);
+  return sum;
+}
+
+// What finding the variables of a null space goes by.
+struct Search {
+  const Pattern& pattern;
+  std::vector<Index> step_at;
+  std::vector<Index> part;     // by variable
+  std::vector<double> length;  // of A's columns
+
+  // The inner product of x and y over variable j's scalars.
+  double dot(Index j, std::span<const double> x, std::span<const double> y) const {
+    return std::inner_product(x.begin() + step_at[j], x.begin() + step_at[j + 1],
+                              y.begin() + step_at[j], 0.0);
+  }
+  std::vector<double> by_part(std::span<const double> x, std::span<const double> y) const {
+    return sums(
+        part.size(), pattern.variables(), [&](Index j) { return part[j]; },
+        [&](Index j) { return dot(j, x, y); });
+  }
+};
+
+// z without its part along `along`, in every part of the graph on its own.
+void remove(const Search& search, std::span<const double> along, std::vector<double>& z) {
+  const auto share = search.by_part(z, along), square = search.by_part(along, along);
+  for (Index j = 0; j < search.pattern.variables(); ++j) {
+    const Index c = search.part[j];
+    if (square[c] == 0) continue;
+    for (Index k = search.step_at[j]; k < search.step_at[j + 1]; ++k)
+      z[k] -= share[c] / square[c] * along[k];
   }
 }
 
-// The largest movement among each variable's scalars.
-std::vector<double> movements(const NormalEquations& normal, const double* x) {
-  std::vector<double> largest;
-  for (std::size_t j = 0; j < normal.dim.size(); ++j) {
-    const double* const first = x + normal.scalar_at[j];
-    largest.push_back(0);
-    for (int k = 0; k < normal.dim[j]; ++k) {
-      largest.back() = std::max(largest.back(), std::abs(first[k]));
+// |A z|^2 by part, A's columns scaled to unit length.
+std::vector<double> residuals(const Search& search, const LinearSystem& system,
+                              std::span<const double> z) {
+  const auto residual = [&](Index r) {
+    const int height = system.height[r];
+    std::vector<double> sum(height, 0.0);
+    const double* number = system.block(r);
+    for (Index j : search.pattern.rows[r]) {
+      for (Index k = search.step_at[j]; k < search.step_at[j + 1]; ++k) {
+        for (int i = 0; i < height; ++i) sum[i] += *number++ * z[k] / search.length[k];
+      }
     }
-  }
-  return largest;
+    return std::inner_product(sum.begin(), sum.end(), sum.begin(), 0.0);
+  };
+  const auto part_of = [&](Index r) {
+    return search.pattern.rows[r].empty() ? 0 : search.part[search.pattern.rows[r].front()];
+  };
+  return sums(search.part.size(), search.pattern.rows.size(), part_of, residual);
+}
+
+std::vector<Id> ids_of(const std::vector<Index>& variables, std::span<const Id> id) {
+  std::vector<Id> ids;
+  for (Index j : variables) ids.push_back(id[j]);
+  std::ranges::sort(ids);
+  return ids;
 }
 
 }  // namespace
 
-std::vector<Index> undetermined_variables(const LinearSystem& system, const Order& order) {
-  assert(!order.empty());
-  NormalEquations normal = normal_structure(system, order);
-  form_normal_equations(system, {}, normal);
-  scale_to_unit_diagonal(normal);
+NullSpace null_space(const LinearSystem& system, std::span<const double> scaling) {
+  const Pattern& pattern = *system.pattern;
+  const ScaledQr factor = scaled_qr(system);
+  NullSpace result;
+  result.dimension = static_cast<Index>(factor.qr.dead);
+  if (result.dimension == 0) return result;
+  const Search search{pattern, starts(pattern.dim), parts(pattern), factor.length};
+  std::vector<double> along(scaling.begin(), scaling.end());
+  for (std::size_t k = 0; k < along.size(); ++k) along[k] *= search.length[k];
+  result.scale = !along.empty();
+
+  std::vector<bool> moves(pattern.variables(), false), costs(pattern.variables(), false);
   std::mt19937 bits(1);
-  for (double& number : normal.gradient) number = 0.5 + bits() / (2.0 * std::mt19937::max());
-
-  Cholmod session;
-  session.common.supernodal = CHOLMOD_SIMPLICIAL;
-  session.common.dbound = held_pivot;
-  cholmod_sparse H = view(normal.column_begin, normal.rows, normal.numbers);
-  const CholmodFactor factor = analyze(H, CHOLMOD_NATURAL, session);
-  factorize(H, *factor, session);
-  const CholmodDense x = solve(*factor, normal.gradient, session);
-
-  const auto moved = movements(normal, static_cast<const double*>(x->x));
-  const double limit = noticeable * *std::ranges::max_element(moved);
-  std::vector<Index> undetermined;
-  for (std::size_t j = 0; j < moved.size(); ++j) {
-    if (moved[j] > limit) undetermined.push_back(static_cast<Index>(j));
+  for (int draw = 0; draw < draws; ++draw) {
+    std::vector<double> dead(factor.qr.dead);
+    for (double& number : dead) {
+      number = (bits() % 2 == 0 ? 1 : -1) * (0.5 + bits() / (2.0 * std::mt19937::max()));
+    }
+    auto z = back_substitute(factor.qr, std::vector<double>(factor.qr.right.size(), 0.0), dead);
+    const auto square = search.by_part(z, z), cost = residuals(search, system, z);
+    if (!along.empty()) remove(search, along, z);
+    for (Index j = 0; j < pattern.variables(); ++j) {
+      const Index c = search.part[j];
+      if (!(search.dot(j, z, z) > noticeable * noticeable * square[c])) continue;
+      (cost[c] <= rounding * rounding * square[c] ? moves : costs)[j] = true;
+    }
   }
-  return undetermined;
+  for (Index j = 0; j < pattern.variables(); ++j) {
+    if (moves[j]) result.undetermined.push_back(j);
+    if (costs[j] && !moves[j]) result.lost.push_back(j);
+  }
+  return result;
+}
+
+Error singular_error(const NullSpace& open, std::span<const Id> id) {
+  if (open.dimension == 0) {
+    return computation_error(
+        "the system is determined, but too ill-conditioned for its normal equations: "
+        "sg-solve --backend qr does without them");
+  }
+  if (open.undetermined.empty() && !open.lost.empty()) {
+    return computation_error(
+        "the system is numerically singular: information that differs by too many orders of "
+        "magnitude leaves rounding to decide on " +
+        id_ranges(ids_of(open.lost, id)) +
+        "; bring it closer together, or lengths to another unit");
+  }
+  const std::string scale = "nothing fixes the scale";
+  if (open.undetermined.empty()) {
+    return computation_error("the system is singular: " + scale +
+                             "; FIX a second pose, or solve it without --gn as it starts");
+  }
+  return computation_error("the system is singular: " + (open.scale ? scale + ", and " : "") +
+                           "the measurements leave " + id_ranges(ids_of(open.undetermined, id)) +
+                           " undetermined; add edges or FIX lines, or leave " +
+                           (open.undetermined.size() == 1 ? "it" : "them") + " out");
 }
 
 std::string id_ranges(const std::vector<Id>& ids) {

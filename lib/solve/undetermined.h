@@ -1,17 +1,29 @@
-// Which variables a singular system leaves undetermined: those that move in its null space.
+// What a system whose elimination broke down leaves undetermined, by its rank: the columns that depend on others in the
+// QR factorization of A, scaled to unit columns (scaled_qr.h). Pivots of the normal equations do not tell: at the far
+// end of a long chain, which is sound, they are as small as rounding leaves them where nothing is measured.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lib/factor/linearize.h"
+#include "lib/text/error.h"
 
 namespace sg {
 
-// Ascending. H, scaled to a unit diagonal, is factorized L D L' with vanished pivots held at a tiny value; solving for
-// a random right-hand side then gives, but for a negligible part, a random vector of the null space (inverse iteration
-// with a perfect shift; Golub, Van Loan, section 8.2.2).
-std::vector<Index> undetermined_variables(const LinearSystem& system, const Order& order);
+struct NullSpace {
+  Index dimension = 0;              // scalars; 0: all is determined
+  bool scale = false;               // the change of scale is in it
+  std::vector<Index> undetermined;  // variables that move in it otherwise; ascending
+  std::vector<Index> lost;  // those that moving costs little more than rounding: ill-conditioned
+};
+
+// scaling: a step in the null space that does not count (free_scaling; gauge.h); empty for none.
+NullSpace null_space(const LinearSystem& system, std::span<const double> scaling = {});
+
+// The Error for such a system. id: by variable.
+Error singular_error(const NullSpace& open, std::span<const Id> id);
 
 // "vertex 5" or "vertices 3, 7-12 and 15", from ascending ids; at most 20 ranges, then "and 7 more".
 std::string id_ranges(const std::vector<Id>& ids);

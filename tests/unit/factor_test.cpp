@@ -1,5 +1,7 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
+#include <iomanip>
+#include <sstream>
 
 #include "formats/formats.h"
 #include "lib/factor/initialize.h"
@@ -251,6 +253,99 @@ TEST_CASE("the first pose is held unless something else holds the graph", "[fact
   CHECK(held(two + "FIX 3\n") == -1);
   CHECK(held(two + "EDGE_PRIOR_SE2 3 1 0 0 1 0 0 1 0 1\n") == -1);
   CHECK(held(two + "EDGE_PRIOR_SE2_XY 3 1 0 1 0 1\n") == 1);
+  // A constant landmark lets the whole turn about it; a second one does not.
+  CHECK(held(two + "FIX 1\n") == 0);
+  CHECK(held(two +
+             "VERTEX_XY 4 1 1\nEDGE_SE2_XY 3 4 0 1 1 0 1\nEDGE_SE2_XY 2 4 1 1 1 0 1\nFIX 1 4\n") ==
+        -1);
+  // A prior without information holds nothing, and one that knows the place alone lets it turn.
+  CHECK(held(two + "EDGE_PRIOR_SE2 3 1 0 0 0 0 0 0 0 0\n") == 1);
+  CHECK(held(two + "EDGE_PRIOR_SE2 3 1 0 0 1 0 0 1 0 0\n") == 1);
+}
+
+TEST_CASE("rank decides whether priors hold the graph", "[factor]") {
+  const auto held = [](const std::string& text) {
+    const Graph graph = graph_of(text);
+    return make_problem(graph).held;
+  };
+  for (const char* const at : {"0 0", "412345.1 5432100.2"}) {
+    std::istringstream place(at);
+    double x = 0, y = 0;
+    place >> x >> y;
+    const auto number = [](double value) {
+      std::ostringstream text;
+      text << std::setprecision(17) << value;
+      return text.str();
+    };
+    std::string plane, space;
+    for (int k = 0; k < 4; ++k) {
+      const std::string id = std::to_string(k);
+      plane += "VERTEX_SE2 " + id + " " + number(x + k) + " " + number(y) + " 0.1\n";
+      space += "VERTEX_SE3:QUAT " + id + " " + number(x + k) + " " + number(y + (k == 3)) +
+               " 7 0 0 0.6 0.8\n";
+    }
+    for (int k = 1; k < 4; ++k) {
+      const std::string ends = std::to_string(k - 1) + " " + std::to_string(k);
+      plane += "EDGE_SE2 " + ends + " 1 0 0 1 0 0 1 0 1\n";
+      space +=
+          "EDGE_SE3:QUAT " + ends + " 1 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
+    }
+    const auto prior = [&](int k) {
+      return "EDGE_PRIOR_SE2_XY " + std::to_string(k) + " 0 0 1 0 1\n";
+    };
+    CHECK(held(plane + prior(1)) == 0);
+    CHECK(held(plane + prior(1) + prior(1)) == 0);
+    CHECK(held(plane + prior(1) + prior(3)) == -1);
+    // What holds x only, twice, lets y go.
+    CHECK(held(plane + "EDGE_PRIOR_SE2_XY 1 0 0 1 0 0\nEDGE_PRIOR_SE2_XY 3 0 0 1 0 0\n") == 0);
+    const auto place_in_space = [&](int k) {
+      return "EDGE_SE3_XYZ_PRIOR " + std::to_string(k) + " 9 0 0 0 1 0 0 1 0 1\n";
+    };
+    const std::string offset = "PARAMS_SE3OFFSET 9 0 0 0 0 0 0 1\n";
+    const std::string three = offset + space + place_in_space(0) + place_in_space(1);
+    CHECK(held(three) == 0);
+    CHECK(held(three + place_in_space(2)) == 0);  // all on a line
+    CHECK(held(three + place_in_space(3)) == -1);
+    // Estimates that all stand at one place tell nothing; composed ones do.
+    std::string nowhere;
+    for (int k = 0; k < 4; ++k) nowhere += "VERTEX_SE2 " + std::to_string(k) + " 0 0 0\n";
+    CHECK(held(nowhere + plane.substr(plane.find("EDGE")) + prior(0) + prior(3)) == -1);
+  }
+}
+
+TEST_CASE("composed estimates stand where the gauge is held", "[factor]") {
+  const auto chi2_of = [](const std::string& text) {
+    const Graph graph = graph_of(text);
+    const Problem problem = make_problem(graph);
+    const Values composed = initial_values(problem);
+    if (problem.held >= 0 && !graph.edges_only) {
+      const Index v = problem.variables.variable_vertex[problem.held];
+      const Values given = file_values(problem);
+      for (Index k = problem.value_at[v]; k < problem.value_at[v + 1]; ++k)
+        CHECK(composed[k] == given[k]);
+    }
+    return chi2(problem, composed);
+  };
+  const std::string off =
+      "VERTEX_SE2 0 5 3 1\nVERTEX_SE2 1 6 3 1.2\nVERTEX_SE2 2 7 3 1.1\nVERTEX_XY 3 0 0\n"
+      "EDGE_SE2 0 1 1 0 0 100 0 0 100 0 400\nEDGE_SE2 1 2 1 0 0 100 0 0 100 0 400\n"
+      "EDGE_SE2_XY 2 3 1 1 1 0 1\n";
+  CHECK(chi2_of(off) < 1e-20);
+  // A prior at the end: composed from there, in both directions.
+  CHECK(chi2_of(off + "EDGE_PRIOR_SE2 2 -4 2 0.5 1 0 0 1 0 1\n") < 1e-20);
+  CHECK(chi2_of(off + "FIX 1\n") < 1e-20);
+}
+
+TEST_CASE("what no edge places is told", "[factor]") {
+  const auto adrift = [](const std::string& text) {
+    const Graph graph = graph_of(text);
+    const Problem problem = make_problem(graph);
+    return compose(problem).adrift;
+  };
+  const std::string seen = "EDGE_SE2_XY 0 10 1 1 1 0 1\nEDGE_SE2_XY 1 10 0 1 1 0 1\n";
+  CHECK(adrift(seen) == std::vector<Index>{1});
+  CHECK(adrift(seen + "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n").empty());
+  CHECK(adrift(seen + "EDGE_PRIOR_SE2 1 1 0 0 1 0 0 1 0 1\n") == std::vector<Index>{0});
 }
 
 TEST_CASE("kernels weigh blocks by the slope of rho", "[factor]") {

@@ -135,7 +135,7 @@ double batch_chi2(const sg::Problem& problem, sg::Values values) {
   const sg::Order order = sg::elimination_order("colamd", problem.variables.pattern);
   sg::LinearSystem system = sg::make_linear_system(problem);
   const auto solver = sg::backends().front().make(system, order, 1);
-  return sg::optimize(problem, order, system, solver, {}, values).chi2;
+  return sg::optimize(problem, system, solver, {}, values).chi2;
 }
 
 }  // namespace
@@ -238,7 +238,8 @@ TEST_CASE("a step that cannot be solved is named with what it leaves open", "[is
   } catch (const sg::Error& error) {
     CHECK(error.fault == sg::Fault::computation);
     CHECK(std::string(error.what()) ==
-          "step 2: the system is singular: the measurements leave vertex 2 undetermined");
+          "step 2: the system is singular: the measurements leave vertex 2 undetermined; "
+          "add edges or FIX lines, or leave it out");
   }
 }
 

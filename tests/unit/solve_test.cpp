@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "formats/formats.h"
+#include "lib/factor/gauge.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
 #include "lib/solve/batch.h"
@@ -83,7 +84,7 @@ Dense dense(const Problem& problem, const LinearSystem& system) {
 
 BatchResult run(Setup& setup, BatchOptions options, std::string_view backend = "tree") {
   const auto solver = find_backend(backend).make(setup.system, setup.order, 1);
-  return optimize(setup.problem, setup.order, setup.system, solver, options, setup.values);
+  return optimize(setup.problem, setup.system, solver, options, setup.values);
 }
 
 }  // namespace
@@ -175,10 +176,142 @@ TEST_CASE("undetermined are those that move in the null space", "[solve]") {
           kernel.middleRows(setup.problem.step_at[j], setup.problem.variables.pattern.dim[j]);
       if (rows.norm() > 1e-6 * kernel.norm()) expected.push_back(j);
     }
-    CHECK(undetermined_variables(setup.system, setup.order) == expected);
+    const NullSpace open = null_space(setup.system);
+    CHECK(open.dimension == kernel.cols());
+    CHECK(open.undetermined == expected);
+    CHECK(open.lost.empty());
     ++some;
   }
   CHECK(some > 10);
+}
+
+namespace {
+
+// N poses in a row, N - 1 edges of unit information or so; poses stand where they are measured.
+std::string chain(int poses, int first = 0) {
+  std::string text;
+  for (int k = 0; k < poses; ++k)
+    text += "VERTEX_SE2 " + std::to_string(first + k) + " " + std::to_string(k) + " 0 0\n";
+  for (int k = 1; k < poses; ++k)
+    text += "EDGE_SE2 " + std::to_string(first + k - 1) + " " + std::to_string(first + k) +
+            " 1 0 0 1 0 0 1 0 1\n";
+  return text;
+}
+
+std::string failure(const std::string& text, BatchOptions options = {}) {
+  Random random(1);
+  const Graph graph = graph_of(text);
+  Setup setup(random, graph);
+  try {
+    run(setup, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+BatchOptions gauss_newton_options() {
+  BatchOptions options;
+  options.method = BatchMethod::gauss_newton;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a long chain is sound, and so are the vertices beside one that is loose", "[solve]") {
+  Random random(1);
+  for (const int poses : {100, 3000, 60000}) {
+    const Graph graph = graph_of(chain(poses));
+    Setup setup(random, graph);
+    CHECK(null_space(setup.system).dimension == 0);
+    const Graph loose = graph_of(chain(poses) + "VERTEX_SE2 900000 0 9 0\n");
+    Setup beside(random, loose);
+    const NullSpace open = null_space(beside.system);
+    CHECK(open.dimension == 3);
+    CHECK(open.undetermined == std::vector<Index>{poses});
+    CHECK(open.lost.empty());
+  }
+  // A second chain is loose as a whole, whatever its length.
+  const Graph graph = graph_of(chain(1000) + chain(500, 5000));
+  Setup setup(random, graph);
+  const NullSpace open = null_space(setup.system);
+  CHECK(open.dimension == 3);
+  REQUIRE(open.undetermined.size() == 500);
+  CHECK(open.undetermined.front() == 1000);
+}
+
+TEST_CASE("a chain that normal equations cannot tell from a loose one is solved by QR", "[solve]") {
+  Random random(1);
+  std::string text = chain(150000);
+  const Graph graph = graph_of(text + "EDGE_PRIOR_SE2_XY 149999 149999 0.5 1 0 1\n");
+  for (const BatchMethod method : {BatchMethod::gauss_newton, BatchMethod::levenberg_marquardt}) {
+    Setup setup(random, graph);
+    BatchOptions options;
+    options.method = method;
+    const BatchResult result = run(setup, options);
+    CHECK(result.converged);
+    CHECK(result.chi2 < 1e-3);
+  }
+}
+
+TEST_CASE("a change of scale is told from other motions", "[solve]") {
+  Random random(1);
+  // Bearings alone, from a pose that is fixed and two that turn: nothing tells how large it all is.
+  std::string text = "VERTEX_SE2 0 0 0 0\nFIX 0\nVERTEX_SE2 1 1 0 0.1\nVERTEX_SE2 2 0 1 -0.1\n";
+  for (int k = 0; k < 5; ++k) {
+    const std::string id = std::to_string(10 + k);
+    text +=
+        "VERTEX_XY " + id + " " + std::to_string(3 + k * k) + " " + std::to_string(2 - k) + "\n";
+    for (int pose = 0; pose < 3; ++pose) {
+      const double x = 3 + k * k - (pose == 1), y = 2 - k - (pose == 2), turn[3] = {0, 0.1, -0.1};
+      text += "EDGE_BEARING_SE2_XY " + std::to_string(pose) + " " + id + " " +
+              std::to_string(std::atan2(y, x) - turn[pose]) + " 100\n";
+    }
+  }
+  CHECK(failure(text, gauss_newton_options()) ==
+        "the system is singular: nothing fixes the scale; FIX a second pose, or solve it without "
+        "--gn as it starts");
+  const Graph graph = graph_of(text);
+  Setup setup(random, graph);
+  const auto scaling = free_scaling(setup.problem, setup.values, setup.system);
+  REQUIRE(scaling.size() == 16);
+  const Dense system = dense(setup.problem, setup.system);
+  const Eigen::Map<const Eigen::VectorXd> step(scaling.data(), 16);
+  CHECK((system.H * step).norm() < 1e-10 * system.H.norm() * step.norm());
+  const BatchResult result = run(setup, {});
+  CHECK(result.scale_free);
+  CHECK(result.converged);
+  CHECK(result.chi2 < 1e-8);
+
+  // One more vertex without an edge is named, and no other.
+  CHECK(failure(text + "VERTEX_XY 99 1 1\n") ==
+        "the system is singular: nothing fixes the scale, and the measurements leave vertex 99 "
+        "undetermined; add edges or FIX lines, or leave it out");
+  // A length fixes it.
+  const Graph measured = graph_of(text + "EDGE_SE2 0 1 1 0 0.1 1 0 0 1 0 1\n");
+  Setup held(random, measured);
+  CHECK(free_scaling(held.problem, held.values, held.system).empty());
+  CHECK(!run(held, {}).scale_free);
+}
+
+TEST_CASE("what is at its optimum converges at once, be it zero", "[solve]") {
+  Random random(1);
+  const std::string turned =
+      "VERTEX_SE2 0 412345.1 5432100.2 0.3\nVERTEX_SE2 1 412345.2 5432100.1 0.7\n"
+      "VERTEX_SE2 2 412346.2 5432101.1 0.2\n"
+      "EDGE_SE2 0 1 0.3 0.1 0.2 250000 0 0 250000 0 1e6\nEDGE_SE2 1 2 1 0.7 0.3 250000 0 0 250000 "
+      "0 1e6\n";
+  for (const BatchMethod method : {BatchMethod::gauss_newton, BatchMethod::levenberg_marquardt}) {
+    const Graph graph = graph_of(turned);
+    Setup setup(random, graph);
+    BatchOptions options;
+    options.method = method;
+    options.tolerance = 0;
+    CHECK(run(setup, options).converged);
+    const BatchResult again = run(setup, options);
+    CHECK(again.converged);
+    CHECK(again.iterations <= 1);
+  }
 }
 
 TEST_CASE("undetermined vertices are named by runs of ids", "[solve]") {

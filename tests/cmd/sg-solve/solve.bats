@@ -41,7 +41,7 @@ setup() {
 @test "methods, orders, backends and threads agree" {
   for name in types-se2 types-se3 types-expmap; do
     want=$(sg-solve $name.g2o | sg-solve --chi2)
-    for call in --gn "--backend cholmod" "-m random" "-m landmarks-first" "-j 1" "-j 2" "--init --backend cholmod"; do
+    for call in --gn "--backend cholmod" "--backend qr" "-m random" "-m landmarks-first" "-j 1" "-j 2" "--init --backend cholmod"; do
       near "$(sg-solve -q $call $name.g2o | sg-solve --chi2)" "$want" 5e-7
     done
   done
@@ -51,8 +51,26 @@ setup() {
   sg-solve -v types-se2.g2o 2>rows >/dev/null
   [ "$(head -n 1 rows)" = "$(printf 'iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s')" ]
   near "$(sed -n 2p rows | cut -f2)" 128.371198 5e-7
+  [[ $(tail -n 1 rows) == "sg-solve: converged after "*" s: chi-square from 128.371 to 6.51528" ]]
+  sed -i '$d' rows
   near "$(tail -n 1 rows | cut -f2)" 6.515277 5e-7
   [ "$(tail -n 1 rows | cut -f1)" -eq $(($(wc -l <rows) - 2)) ]
+}
+
+@test "what does not converge is an error, unless it is asked for" {
+  # Weights that grow as errors vanish: iterations creep.
+  echo before >out.g2o
+  run -3 sg-solve --tolerance 0 --gn --kernel huber:1e-3 types-se3.g2o -o out.g2o
+  [[ $output == "sg-solve: not converged after 100 iterations, chi-square "*"; nothing is written (--keep would): try "* ]]
+  [ "${#lines[@]}" -eq 1 ]
+  [ "$(cat out.g2o)" = before ]
+  run -0 sg-solve --keep --tolerance 0 --gn --kernel huber:1e-3 types-se3.g2o -o out.g2o
+  [[ $output == "sg-solve: not converged after 100 iterations, chi-square "* ]]
+  [ "${#lines[@]}" -eq 1 ]
+  run -0 grep -c ^VERTEX out.g2o
+  [ "$output" -gt 0 ]
+  fails 2 "sg-solve: --keep belongs to optimizing, not to --chi2 or --time (see sg-solve --help)" \
+    sg-solve --keep --chi2 types-se3.g2o
 }
 
 @test "too few iterations are a warning" {
@@ -80,15 +98,15 @@ setup() {
 @test "a singular system names the undetermined vertices and leaves the output alone" {
   echo before >out.g2o
   grep -v "EDGE_SE2_XY . 101" walk.g2o >in.g2o
-  fails 3 "sg-solve: the system is singular: the measurements leave vertex 101 undetermined" \
+  fails 3 "sg-solve: the system is singular: the measurements leave vertex 101 undetermined; add edges or FIX lines, or leave it out" \
     sg-solve in.g2o -o out.g2o
   [ "$(cat out.g2o)" = before ]
-  fails 3 "sg-solve: the system is singular: the measurements leave vertex 101 undetermined" \
+  fails 3 "sg-solve: the system is singular: the measurements leave vertex 101 undetermined; add edges or FIX lines, or leave it out" \
     sg-solve --gn --backend cholmod in.g2o
-  fails 3 "sg-solve: the system is singular: the measurements leave vertex 101 undetermined" \
+  fails 3 "sg-solve: the system is singular: the measurements leave vertex 101 undetermined; add edges or FIX lines, or leave it out" \
     sg-solve --time 1 in.g2o
   printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 7 8 1 0 0 1 0 0 1 0 1\nEDGE_SE2 8 9 1 0 0 1 0 0 1 0 1\n' >in.g2o
-  fails 3 "sg-solve: the system is singular: the measurements leave vertices 7-9 undetermined" sg-solve in.g2o
+  fails 3 "sg-solve: the system is singular: the measurements leave vertices 7-9 undetermined; add edges or FIX lines, or leave them out" sg-solve in.g2o
 }
 
 @test "what cannot be solved is said with its line" {
@@ -104,7 +122,7 @@ setup() {
       sg-solve --kernel $kernel walk.g2o
   done
   fails 2 "sg-solve: --chi2 or --time, not both (see sg-solve --help)" sg-solve --chi2 --time 3 walk.g2o
-  fails 2 "sg-solve: no backend 'x'; there are: tree, cholmod (see sg-solve --help)" sg-solve --backend x walk.g2o
+  fails 2 "sg-solve: no backend 'x'; there are: tree, cholmod, qr (see sg-solve --help)" sg-solve --backend x walk.g2o
 }
 
 @test "the public graphs end where g2o's convention has their optimum" {

@@ -17,6 +17,6 @@ int main(int, char** argv) {
   sg::Values values = sg::initial_values(problem);
   sg::LinearSystem system = sg::make_linear_system(problem);
   const auto solver = sg::find_backend("cholmod").make(system, order, 1);
-  const auto result = sg::optimize(problem, order, system, solver, {}, values);
+  const auto result = sg::optimize(problem, system, solver, {}, values);
   std::cout << (result.converged ? "solved" : "not solved") << '\n';
 }

@@ -1,0 +1,20 @@
+#include <memory>
+
+#include "lib/solve/linear_solver.h"
+#include "lib/solve/scaled_qr.h"
+
+namespace sg {
+
+LinearSolver qr_solver(const LinearSystem& /*system*/, const Order& /*order*/, int /*threads*/) {
+  const auto state = std::make_shared<ScaledQr>();
+  return {[state](const LinearSystem& system, std::span<const double> damping) {
+            *state = scaled_qr(system, damping);
+            return state->qr.dead == 0;
+          },
+          [state](std::vector<double>& step) {
+            step = back_substitute(state->qr, state->qr.right);
+            for (std::size_t k = 0; k < step.size(); ++k) step[k] /= state->length[k];
+          }};
+}
+
+}  // namespace sg
