@@ -33,7 +33,7 @@ struct Row {
   const std::optional<score::Trajectory>& reference;
   const std::string& file;
   const Graph& graph;
-  trees::TreeWeights weights;
+  trees::Weights weights;
   graph::GraphPattern variables;
   cmd::Method method;
   std::optional<graph::Order> order_ = {};
@@ -125,7 +125,7 @@ void run(const cmd::Command& /*command*/, const Options& options) {
   std::optional<score::Trajectory> reference;
   if (!options.reference.empty())
     reference = read_trajectory(options.reference, options.inputs.options);
-  const trees::TreeWeights weights = trees::tree_weights(options.weights).value();
+  const trees::Weights weights = trees::tree_weights(options.weights).value();
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
     const cmd::Method method = cmd::methods(options.method, graph).front();

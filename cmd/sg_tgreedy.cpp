@@ -88,7 +88,7 @@ void run(const cmd::Command& command, const Options& options) {
   const cmd::Prunable from = cmd::read_prunable(pruning);
   const auto& [graph, poses, kind, candidates] = from;
   const auto count = cmd::kept_count(options.amount, from, options.pruning.input.options);
-  const trees::TreeWeights weights = trees::tree_weights(options.weights).value();
+  const trees::Weights weights = trees::tree_weights(options.weights).value();
   const auto accepted =
       online ? prune::tgreedy_online(graph, poses, candidates, count, weights, *online)
              : prune::tgreedy(graph, candidates, count, weights);

@@ -53,7 +53,7 @@ struct Search {
   const OrderOptions& options;
   graph::Adjacency graph;
   std::vector<int> stage;  // 1 of the variables of `last`
-  OrderedElimination best;
+  Elimination best;
   std::vector<double> cost;  // running sum of the costs of best's variables
 };
 
@@ -64,7 +64,7 @@ struct Try {
   elim::Wide gain = 0;
 };
 
-void take(Search& search, OrderedElimination&& elimination) {
+void take(Search& search, Elimination&& elimination) {
   search.best = std::move(elimination);
   search.cost.clear();
   double sum = 0;
@@ -169,7 +169,7 @@ void take_best_method(Search& search, const Clock& clock) {
   for (const Ordering& method : orderings()) {
     if (method.compute != best) methods.push_back(&method);
   }
-  std::vector<OrderedElimination> found(methods.size());
+  std::vector<Elimination> found(methods.size());
   tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {
     found[i] =
         elimination(search.pattern, elimination_order(*methods[i], search.pattern, search.options));
@@ -189,10 +189,10 @@ void take_round(Search& search, std::vector<Try>& tries, int done, const Clock& 
         return (a.order.empty() ? 0 : a.gain) < (b.order.empty() ? 0 : b.gain);
       });
   const graph::Order fresh = restarted->order;
-  OrderedElimination improved = elimination(search.pattern, with_improvements(search, tries));
+  Elimination improved = elimination(search.pattern, with_improvements(search, tries));
   std::string_view how = "local";
   if (!fresh.empty()) {
-    OrderedElimination other = elimination(search.pattern, fresh);
+    Elimination other = elimination(search.pattern, fresh);
     if (other.ec < improved.ec) {
       improved = std::move(other);
       how = "restart";

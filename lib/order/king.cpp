@@ -12,7 +12,7 @@
 namespace sg::order::methods {
 namespace {
 
-graph::Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const Part& part) {
   const BoostGraph graph = boost_graph(part.adjacency);
   graph::Order order(part.adjacency.size());
   boost::king_ordering(graph, order.rbegin());

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(sizeof(idx_t) == sizeof(Index));
 
-graph::Order order_part(ConnectedPart& part, std::uint64_t seed) {
+graph::Order order_part(Part& part, std::uint64_t seed) {
   idx_t n = part.adjacency.size();
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
@@ -36,8 +36,7 @@ graph::Order order_part(ConnectedPart& part, std::uint64_t seed) {
 }  // namespace
 
 graph::Order metis(const graph::Pattern& pattern, const OrderOptions& options) {
-  return order_by_parts(pattern,
-                        [&](ConnectedPart& part) { return order_part(part, options.seed); });
+  return order_by_parts(pattern, [&](Part& part) { return order_part(part, options.seed); });
 }
 
 }  // namespace sg::order::methods

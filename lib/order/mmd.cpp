@@ -9,7 +9,7 @@ namespace {
 
 // Boost looks one place beyond its lists by degree when vertices of the largest degree possible go.
 // A vertex without neighbours, which goes first and costs nothing, makes the lists longer by one.
-graph::Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const Part& part) {
   BoostGraph graph = boost_graph(part.adjacency);
   const auto lone = static_cast<Index>(boost::add_vertex(graph));
   const auto n = boost::num_vertices(graph);

@@ -20,9 +20,9 @@ std::vector<Index> reachable(const graph::Adjacency& graph, Index first, std::ve
 }
 
 // `number` is scratch space of n.
-ConnectedPart part_of(const graph::Pattern& pattern, const graph::Adjacency& graph,
-                      const std::vector<Index>& variables, std::vector<Index>& number) {
-  ConnectedPart part;
+Part part_of(const graph::Pattern& pattern, const graph::Adjacency& graph,
+             const std::vector<Index>& variables, std::vector<Index>& number) {
+  Part part;
   for (std::size_t k = 0; k < variables.size(); ++k) {
     number[variables[k]] = static_cast<Index>(k);
     part.dim.push_back(pattern.dim[variables[k]]);
@@ -37,7 +37,7 @@ ConnectedPart part_of(const graph::Pattern& pattern, const graph::Adjacency& gra
 }  // namespace
 
 graph::Order order_by_parts(const graph::Pattern& pattern,
-                            const std::function<graph::Order(ConnectedPart&)>& order_part) {
+                            const std::function<graph::Order(Part&)>& order_part) {
   const Index n = pattern.variables();
   const graph::Adjacency graph = graph::adjacency(pattern);
   std::vector<bool> seen(n, false);
@@ -51,7 +51,7 @@ graph::Order order_by_parts(const graph::Pattern& pattern,
       order.push_back(j);
       continue;
     }
-    ConnectedPart part = part_of(pattern, graph, variables, number);
+    Part part = part_of(pattern, graph, variables, number);
     for (Index k : order_part(part)) order.push_back(variables[k]);
   }
   return order;

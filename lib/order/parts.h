@@ -11,7 +11,7 @@
 namespace sg::order {
 
 // A connected part of the graph of A^T A, its variables renumbered 0..size-1 in their order.
-struct ConnectedPart {
+struct Part {
   graph::Adjacency adjacency;
   std::vector<int> dim;
 };
@@ -19,6 +19,6 @@ struct ConnectedPart {
 // Orders every part by itself, one after the other in order of their first variables. An ordering
 // costs what its parts cost together, so nothing is lost.
 graph::Order order_by_parts(const graph::Pattern& pattern,
-                            const std::function<graph::Order(ConnectedPart&)>& order_part);
+                            const std::function<graph::Order(Part&)>& order_part);
 
 }  // namespace sg::order

@@ -7,7 +7,7 @@
 namespace sg::order::methods {
 namespace {
 
-graph::Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const Part& part) {
   const BoostGraph graph = boost_graph(part.adjacency);
   graph::Order order(part.adjacency.size());
   boost::cuthill_mckee_ordering(graph, order.rbegin());

@@ -22,11 +22,11 @@ std::vector<Index> subtree_begin(const std::vector<Index>& parent) {
 
 // Children of k in a postorder, by way of their subtrees: the last is k - 1.
 template <class Function>
-void for_children(const OrderedElimination& e, Index k, Function function) {
+void for_children(const Elimination& e, Index k, Function function) {
   for (Index child = k - 1; child >= e.first[k]; child = e.first[child] - 1) function(child);
 }
 
-std::vector<Index> top_of_subtree(const OrderedElimination& e, Index root, Index size) {
+std::vector<Index> top_of_subtree(const Elimination& e, Index root, Index size) {
   std::vector<Index> inside;
   std::priority_queue<std::pair<std::int64_t, Index>> next;
   next.emplace(e.count[root], root);
@@ -41,7 +41,7 @@ std::vector<Index> top_of_subtree(const OrderedElimination& e, Index root, Index
 }
 
 // The first row whose first variable is at this position or later.
-Index first_row(const OrderedElimination& e, Index position) {
+Index first_row(const Elimination& e, Index position) {
   Index low = 0, high = e.pattern.rows.size();
   while (low < high) {
     const Index middle = low + (high - low) / 2;
@@ -63,7 +63,7 @@ void end_row(graph::Lists<>& rows) {
 }
 
 // The rows of R, in positions: those that R eliminates, and the separators of what hangs below it.
-graph::Lists<> region_rows(const OrderedElimination& e, const std::vector<Index>& inside) {
+graph::Lists<> region_rows(const Elimination& e, const std::vector<Index>& inside) {
   graph::Lists<> rows;
   const auto hanging = [&](Index child) {
     if (std::binary_search(inside.begin(), inside.end(), child)) return;
@@ -85,10 +85,10 @@ graph::Lists<> region_rows(const OrderedElimination& e, const std::vector<Index>
 
 }  // namespace
 
-OrderedElimination elimination(const graph::Pattern& pattern, const graph::Order& order) {
+Elimination elimination(const graph::Pattern& pattern, const graph::Order& order) {
   const std::vector<Index> post =
       elim::postorder(elim::elimination_tree(elim::ordered(pattern, order)));
-  OrderedElimination e;
+  Elimination e;
   e.order.reserve(order.size());
   for (Index k : post) e.order.push_back(order[k]);
   e.pattern = elim::ordered(pattern, e.order);
@@ -101,7 +101,7 @@ OrderedElimination elimination(const graph::Pattern& pattern, const graph::Order
   return e;
 }
 
-Region region(const OrderedElimination& e, Index root, Index size) {
+Region region(const Elimination& e, Index root, Index size) {
   assert(0 <= root && root < static_cast<Index>(e.parent.size()) && size > 0);
   Region result{root, top_of_subtree(e, root, size), {}, 0};
   graph::Lists<>& rows = result.pattern.rows;
@@ -128,7 +128,7 @@ elim::Wide region_ec(const Region& region, const graph::Order& order) {
   return ec;
 }
 
-std::vector<Index> reordered_subtree(const OrderedElimination& e, const Region& region,
+std::vector<Index> reordered_subtree(const Elimination& e, const Region& region,
                                      const graph::Order& order) {
   assert(graph::is_permutation(order, region.pattern.variables()));
   std::vector<Index> result;

@@ -12,7 +12,7 @@
 
 namespace sg::order {
 
-struct OrderedElimination {
+struct Elimination {
   graph::Order order;  // postordered
   elim::OrderedPattern pattern;
   std::vector<Index> parent, first;
@@ -20,7 +20,7 @@ struct OrderedElimination {
   elim::Wide ec = 0;
 };
 // The elimination of a pattern in this order, made a postorder: every front stays as it is.
-OrderedElimination elimination(const graph::Pattern& pattern, const graph::Order& order);
+Elimination elimination(const graph::Pattern& pattern, const graph::Order& order);
 
 // What an order gives for the positions of R alone.
 struct Region {
@@ -31,13 +31,13 @@ struct Region {
 };
 
 // Up to `size` positions at the top of the root's subtree, those with the largest fronts first.
-Region region(const OrderedElimination& elimination, Index root, Index size);
+Region region(const Elimination& elimination, Index root, Index size);
 
 // EC of R under an order of region.pattern that has R before B.
 elim::Wide region_ec(const Region& region, const graph::Order& order);
 
 // The subtree's part of the elimination order, with R at its end and reordered.
-std::vector<Index> reordered_subtree(const OrderedElimination& elimination, const Region& region,
+std::vector<Index> reordered_subtree(const Elimination& elimination, const Region& region,
                                      const graph::Order& order);
 
 }  // namespace sg::order

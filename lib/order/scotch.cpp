@@ -53,7 +53,7 @@ std::vector<SCOTCH_Num> numbers(const std::vector<Index>& values) {
   return {values.begin(), values.end()};
 }
 
-graph::Order order_part(const ConnectedPart& part, std::uint64_t seed) {
+graph::Order order_part(const Part& part, std::uint64_t seed) {
   const SCOTCH_Num n = part.adjacency.size();
   const auto begin = numbers(part.adjacency.begin);
   const auto neighbours = numbers(part.adjacency.items);
@@ -77,8 +77,7 @@ graph::Order order_part(const ConnectedPart& part, std::uint64_t seed) {
 }  // namespace
 
 graph::Order scotch(const graph::Pattern& pattern, const OrderOptions& options) {
-  return order_by_parts(pattern,
-                        [&](const ConnectedPart& part) { return order_part(part, options.seed); });
+  return order_by_parts(pattern, [&](const Part& part) { return order_part(part, options.seed); });
 }
 
 }  // namespace sg::order::methods

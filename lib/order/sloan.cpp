@@ -12,7 +12,7 @@
 namespace sg::order::methods {
 namespace {
 
-graph::Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const Part& part) {
   BoostGraph graph = boost_graph(part.adjacency);
   const std::size_t n = boost::num_vertices(graph);
   std::vector<boost::default_color_type> color(n, boost::white_color);

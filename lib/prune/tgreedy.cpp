@@ -39,14 +39,14 @@ struct Layer {
 };
 
 struct Greedy {
-  std::vector<trees::TreeEdge> link;  // by edge; u == v where it links nothing
+  std::vector<trees::Edge> link;  // by edge; u == v where it links nothing
   std::vector<Layer> layers;
   std::priority_queue<Worth> waiting;
   std::int64_t version = 0;
   std::vector<Accepted> accepted;
 };
 
-trees::TreeEdge candidate_link(const Graph& graph, const trees::TreeNodes& nodes, Index e) {
+trees::Edge candidate_link(const Graph& graph, const trees::Nodes& nodes, Index e) {
   const auto ends = graph.edge(e);
   if (ends.size() == 2) return {nodes.node[ends[0]], nodes.node[ends[1]]};
   throw graph::error_at(graph, graph.edge_line[e],
@@ -55,8 +55,8 @@ trees::TreeEdge candidate_link(const Graph& graph, const trees::TreeNodes& nodes
 }
 
 void require_weights(const Graph& graph, const std::vector<Index>& candidates,
-                     const std::vector<trees::TreeLayer>& layers) {
-  for (const trees::TreeLayer& layer : layers) {
+                     const std::vector<trees::Layer>& layers) {
+  for (const trees::Layer& layer : layers) {
     if (std::any_of(candidates.begin(), candidates.end(),
                     [&](Index e) { return layer.weight[e] > 0; }))
       return;
@@ -66,15 +66,15 @@ void require_weights(const Graph& graph, const std::vector<Index>& candidates,
 }
 
 // The graph of the edges marked `present`, on a pattern of all.
-Greedy start(const Graph& graph, const graph::Lists<trees::TreeEdge>& all,
-             const trees::TreeNodes& nodes, const std::vector<Index>& candidates,
-             trees::TreeWeights kind, const std::vector<bool>& present) {
+Greedy start(const Graph& graph, const graph::Lists<trees::Edge>& all, const trees::Nodes& nodes,
+             const std::vector<Index>& candidates, trees::Weights kind,
+             const std::vector<bool>& present) {
   Greedy greedy;
   greedy.link.assign(graph.edges(), {0, 0});
   for (Index e : candidates) greedy.link[e] = candidate_link(graph, nodes, e);
-  std::vector<trees::TreeLayer> layers = trees::tree_layers(graph, kind);
+  std::vector<trees::Layer> layers = trees::tree_layers(graph, kind);
   require_weights(graph, candidates, layers);
-  for (trees::TreeLayer& layer : layers) {
+  for (trees::Layer& layer : layers) {
     std::vector<double> weight(all.items.size(), 0);
     for (Index e = 0; e < graph.edges(); ++e) {
       if (!present[e]) continue;
@@ -144,9 +144,9 @@ graph::Lists<> by_batch(const Graph& graph, const graph::PoseIndex& poses, Index
 }  // namespace
 
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
-                              std::size_t count, trees::TreeWeights weights) {
-  const trees::TreeNodes nodes = trees::tree_nodes(graph);
-  const graph::Lists<trees::TreeEdge> all = trees::tree_links(graph, nodes);
+                              std::size_t count, trees::Weights weights) {
+  const trees::Nodes nodes = trees::tree_nodes(graph);
+  const graph::Lists<trees::Edge> all = trees::tree_links(graph, nodes);
   std::vector<bool> present(graph.edges(), true);
   for (Index e : candidates) present[e] = false;
   Greedy greedy = start(graph, all, nodes, candidates, weights, present);
@@ -157,9 +157,9 @@ std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& cand
 
 std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
-                                     trees::TreeWeights weights, Index batch) {
-  const trees::TreeNodes nodes = trees::tree_nodes(graph);
-  const graph::Lists<trees::TreeEdge> all = trees::tree_links(graph, nodes);
+                                     trees::Weights weights, Index batch) {
+  const trees::Nodes nodes = trees::tree_nodes(graph);
+  const graph::Lists<trees::Edge> all = trees::tree_links(graph, nodes);
   Greedy greedy =
       start(graph, all, nodes, candidates, weights, std::vector<bool>(graph.edges(), false));
   std::vector<bool> candidate(graph.edges(), false);
@@ -176,8 +176,7 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex&
       }
       for (Layer& layer : greedy.layers) {
         if (layer.weight[e] <= 0) continue;
-        for (const trees::TreeEdge& link : all[e])
-          trees::add_link(layer.trees, link, layer.weight[e]);
+        for (const trees::Edge& link : all[e]) trees::add_link(layer.trees, link, layer.weight[e]);
       }
       ++greedy.version;
     }

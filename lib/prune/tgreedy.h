@@ -34,14 +34,14 @@ struct Accepted {
 // The candidates to keep, in the order in which they are accepted: `count` of them, or all. Throws
 // an input Error for a candidate of other than two vertices.
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
-                              std::size_t count, trees::TreeWeights weights);
+                              std::size_t count, trees::Weights weights);
 
 // The choice that a robot could have made: after every `batch` steps of the replay it spends that
 // batch's share of `count` on the candidates seen so far, in the graph seen so far. After c of the
 // n candidates, round(count c / n) are spent.
 std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
-                                     trees::TreeWeights weights, Index batch);
+                                     trees::Weights weights, Index batch);
 
 // Parts of the graph's poses that the kept candidates and the other edges do not join.
 Index pose_parts(const Graph& graph, const graph::PoseIndex& poses,

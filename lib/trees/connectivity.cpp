@@ -15,19 +15,19 @@ namespace {
 // The nodes and links of one layer, nodes renumbered.
 struct LayerGraph {
   Index nodes = 0;
-  std::vector<TreeEdge> links;
+  std::vector<Edge> links;
   std::vector<double> weight;
 };
 
 // Nodes without a link are left out where others have some: but not under unit weights, where every
 // node could have one, and its lack of it is a lack of the graph.
-LayerGraph layer_graph(const graph::Lists<TreeEdge>& links, Index nodes, const TreeLayer& layer,
+LayerGraph layer_graph(const graph::Lists<Edge>& links, Index nodes, const Layer& layer,
                        bool keep_isolated) {
   LayerGraph result;
   std::vector<Index> number(nodes, keep_isolated ? 0 : -1);
   for (Index e = 0; e < links.size(); ++e) {
     if (!(layer.weight[e] > 0)) continue;
-    for (const TreeEdge& link : links[e]) {
+    for (const Edge& link : links[e]) {
       if (link.u == link.v) continue;
       number[link.u] = number[link.v] = 0;
       result.links.push_back(link);
@@ -37,17 +37,17 @@ LayerGraph layer_graph(const graph::Lists<TreeEdge>& links, Index nodes, const T
   for (Index& n : number) {
     if (n == 0) n = result.nodes++;
   }
-  for (TreeEdge& link : result.links) link = {number[link.u], number[link.v]};
+  for (Edge& link : result.links) link = {number[link.u], number[link.v]};
   return result;
 }
 
-std::vector<LayerGraph> layer_graphs(const Graph& graph, TreeWeights kind,
+std::vector<LayerGraph> layer_graphs(const Graph& graph, Weights kind,
                                      std::vector<double>& multiplicity) {
-  const TreeNodes nodes = tree_nodes(graph);
-  const graph::Lists<TreeEdge> links = tree_links(graph, nodes);
+  const Nodes nodes = tree_nodes(graph);
+  const graph::Lists<Edge> links = tree_links(graph, nodes);
   std::vector<LayerGraph> graphs;
-  for (const TreeLayer& layer : tree_layers(graph, kind)) {
-    const bool all = kind != TreeWeights::rotation && graphs.empty();  // landmarks do not rotate
+  for (const Layer& layer : tree_layers(graph, kind)) {
+    const bool all = kind != Weights::rotation && graphs.empty();  // landmarks do not rotate
     graphs.push_back(layer_graph(links, nodes.count, layer, all));
     multiplicity.push_back(layer.multiplicity);
   }
@@ -107,7 +107,7 @@ double sparse_connectivity(SpanningTrees& trees) {
 
 }  // namespace
 
-double log_trees(const Graph& graph, TreeWeights weights) {
+double log_trees(const Graph& graph, Weights weights) {
   std::vector<double> multiplicity;
   double sum = 0;
   const auto graphs = layer_graphs(graph, weights, multiplicity);
@@ -119,8 +119,8 @@ double log_trees(const Graph& graph, TreeWeights weights) {
   return sum;
 }
 
-std::optional<double> algebraic_connectivity(const Graph& graph, TreeWeights weights) {
-  if (weights == TreeWeights::dopt) return std::nullopt;
+std::optional<double> algebraic_connectivity(const Graph& graph, Weights weights) {
+  if (weights == Weights::dopt) return std::nullopt;
   std::vector<double> multiplicity;
   const LayerGraph layer = layer_graphs(graph, weights, multiplicity)[0];
   if (layer.nodes < 2) return std::nullopt;

@@ -15,8 +15,7 @@ Index root(std::vector<Index>& part, Index node) {
   return node;
 }
 
-void find_parts(SpanningTrees& trees, std::span<const TreeEdge> links,
-                std::span<const double> weight) {
+void find_parts(SpanningTrees& trees, std::span<const Edge> links, std::span<const double> weight) {
   trees.part.resize(trees.position.size());
   std::iota(trees.part.begin(), trees.part.end(), 0);
   for (std::size_t k = 0; k < links.size(); ++k) {
@@ -28,7 +27,7 @@ void find_parts(SpanningTrees& trees, std::span<const TreeEdge> links,
 }
 
 // The lower triangle of the grounded Laplacian, links of weight 0 included.
-sparse::Triplets laplacian(const SpanningTrees& trees, std::span<const TreeEdge> links,
+sparse::Triplets laplacian(const SpanningTrees& trees, std::span<const Edge> links,
                            std::span<const double> weight) {
   sparse::Triplets lower;
   for (Index v = 0; v < static_cast<Index>(trees.part.size()); ++v)
@@ -62,8 +61,7 @@ void take_factor(SpanningTrees& trees, const cholmod_factor& factor) {
   }
 }
 
-void factorize(SpanningTrees& trees, std::span<const TreeEdge> links,
-               std::span<const double> weight) {
+void factorize(SpanningTrees& trees, std::span<const Edge> links, std::span<const double> weight) {
   sparse::Cholmod session;
   session.common.final_ll = false;  // L D L^T
   session.common.supernodal = CHOLMOD_SIMPLICIAL;
@@ -107,7 +105,7 @@ void update(SpanningTrees& trees, Index start, double scale) {
 
 }  // namespace
 
-SpanningTrees spanning_trees(Index nodes, std::span<const TreeEdge> links,
+SpanningTrees spanning_trees(Index nodes, std::span<const Edge> links,
                              std::span<const double> weight) {
   SpanningTrees trees;
   trees.position.resize(nodes);
@@ -121,11 +119,11 @@ SpanningTrees spanning_trees(Index nodes, std::span<const TreeEdge> links,
   return trees;
 }
 
-bool joined(SpanningTrees& trees, const TreeEdge& link) {
+bool joined(SpanningTrees& trees, const Edge& link) {
   return root(trees.part, link.u) == root(trees.part, link.v);
 }
 
-double resistance(SpanningTrees& trees, const TreeEdge& link) {
+double resistance(SpanningTrees& trees, const Edge& link) {
   if (link.u == link.v) return 0;
   auto& x = trees.work;
   x[trees.position[link.u]] = 1;
@@ -144,11 +142,11 @@ double resistance(SpanningTrees& trees, const TreeEdge& link) {
   return sum;
 }
 
-double gain(SpanningTrees& trees, const TreeEdge& link, double weight) {
+double gain(SpanningTrees& trees, const Edge& link, double weight) {
   return joined(trees, link) ? std::log1p(weight * resistance(trees, link)) : std::log(weight);
 }
 
-double add_link(SpanningTrees& trees, const TreeEdge& link, double weight) {
+double add_link(SpanningTrees& trees, const Edge& link, double weight) {
   if (link.u == link.v) return 0;
   const double result = gain(trees, link, weight);
   const Index u = trees.position[link.u], v = trees.position[link.v];

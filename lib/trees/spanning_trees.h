@@ -37,17 +37,17 @@ struct SpanningTrees {
 // The graph of the links whose weight is positive; those of weight 0 may come later. Links from a
 // node to itself have no part in anything. Throws a computation Error if the Laplacian is too badly
 // scaled to be factored.
-SpanningTrees spanning_trees(Index nodes, std::span<const TreeEdge> links,
+SpanningTrees spanning_trees(Index nodes, std::span<const Edge> links,
                              std::span<const double> weight);
 
-bool joined(SpanningTrees& trees, const TreeEdge& link);
+bool joined(SpanningTrees& trees, const Edge& link);
 // Between the ends of one of the pattern's links, which must be joined.
-double resistance(SpanningTrees& trees, const TreeEdge& link);
+double resistance(SpanningTrees& trees, const Edge& link);
 // What adding one of the pattern's links with weight > 0 does to log_trees: log(w) if it joins two
 // parts, log(1 + w R) otherwise.
-double gain(SpanningTrees& trees, const TreeEdge& link, double weight);
+double gain(SpanningTrees& trees, const Edge& link, double weight);
 // Adds it, and returns its gain.
-double add_link(SpanningTrees& trees, const TreeEdge& link, double weight);
+double add_link(SpanningTrees& trees, const Edge& link, double weight);
 
 // x <- M^-1 x with M the grounded Laplacian; x by node.
 void solve(SpanningTrees& trees, std::span<double> x);

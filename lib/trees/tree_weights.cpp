@@ -38,16 +38,16 @@ double mean_information(const graph::EdgeType& type, const graph::Axes& axes,
   return std::cbrt(std::max(0.0, det));
 }
 
-TreeLayer unit_layer(const Graph& graph) {
-  TreeLayer layer{1, std::vector<double>(graph.edges(), 0)};
+Layer unit_layer(const Graph& graph) {
+  Layer layer{1, std::vector<double>(graph.edges(), 0)};
   for (Index e = 0; e < graph.edges(); ++e) layer.weight[e] = graph.edge(e).size() > 1 ? 1 : 0;
   return layer;
 }
 
 // Translation and rotation.
-std::array<TreeLayer, 2> information_layers(const Graph& graph) {
-  std::array<TreeLayer, 2> layers;
-  for (TreeLayer& layer : layers) layer.weight.assign(graph.edges(), 0);
+std::array<Layer, 2> information_layers(const Graph& graph) {
+  std::array<Layer, 2> layers;
+  for (Layer& layer : layers) layer.weight.assign(graph.edges(), 0);
   std::vector<double> numbers;
   for (Index e = 0; e < graph.edges(); ++e) {
     if (graph.edge(e).size() < 2) continue;
@@ -65,15 +65,15 @@ std::array<TreeLayer, 2> information_layers(const Graph& graph) {
 
 }  // namespace
 
-std::optional<TreeWeights> tree_weights(std::string_view name) {
+std::optional<Weights> tree_weights(std::string_view name) {
   constexpr std::array<std::string_view, 4> names{"unit", "translation", "rotation", "dopt"};
   const auto it = std::find(names.begin(), names.end(), name);
   if (it == names.end()) return std::nullopt;
-  return static_cast<TreeWeights>(it - names.begin());
+  return static_cast<Weights>(it - names.begin());
 }
 
-TreeNodes tree_nodes(const Graph& graph) {
-  TreeNodes nodes{0, std::vector<Index>(graph.vertices(), -1)};
+Nodes tree_nodes(const Graph& graph) {
+  Nodes nodes{0, std::vector<Index>(graph.vertices(), -1)};
   Index constants = -1;
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (graph.fixed[v] && constants >= 0) {
@@ -86,8 +86,8 @@ TreeNodes tree_nodes(const Graph& graph) {
   return nodes;
 }
 
-graph::Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes) {
-  graph::Lists<TreeEdge> links;
+graph::Lists<Edge> tree_links(const Graph& graph, const Nodes& nodes) {
+  graph::Lists<Edge> links;
   for (Index e = 0; e < graph.edges(); ++e) {
     const auto ends = graph.edge(e);
     for (std::size_t k = 1; k < ends.size(); ++k)
@@ -97,11 +97,11 @@ graph::Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes) {
   return links;
 }
 
-std::vector<TreeLayer> tree_layers(const Graph& graph, TreeWeights kind) {
-  if (kind == TreeWeights::unit) return {unit_layer(graph)};
+std::vector<Layer> tree_layers(const Graph& graph, Weights kind) {
+  if (kind == Weights::unit) return {unit_layer(graph)};
   auto [translation, rotation] = information_layers(graph);
-  if (kind == TreeWeights::dopt) return {std::move(translation), std::move(rotation)};
-  TreeLayer& chosen = kind == TreeWeights::translation ? translation : rotation;
+  if (kind == Weights::dopt) return {std::move(translation), std::move(rotation)};
+  Layer& chosen = kind == Weights::translation ? translation : rotation;
   chosen.multiplicity = 1;
   return {std::move(chosen)};
 }

@@ -18,26 +18,26 @@
 
 namespace sg::trees {
 
-enum class TreeWeights : std::uint8_t { unit, translation, rotation, dopt };
+enum class Weights : std::uint8_t { unit, translation, rotation, dopt };
 // The kind of that name, if there is one.
-std::optional<TreeWeights> tree_weights(std::string_view name);
+std::optional<Weights> tree_weights(std::string_view name);
 
 // Vertices are nodes; all fixed vertices together are one node, as constants they are all known.
-struct TreeNodes {
+struct Nodes {
   Index count = 0;
   std::vector<Index> node;  // n: of every vertex
 };
-TreeNodes tree_nodes(const Graph& graph);
+Nodes tree_nodes(const Graph& graph);
 
 // The links between nodes that every edge makes: from its first vertex to each of the others.
-struct TreeEdge {
+struct Edge {
   Index u, v;
 };
-graph::Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes);
+graph::Lists<Edge> tree_links(const Graph& graph, const Nodes& nodes);
 
 // What one kind of weight makes of the edges. An edge of weight 0 has no part in it. D-optimality
 // has two layers, all others one.
-struct TreeLayer {
+struct Layer {
   double multiplicity = 1;     // of log t in the criterion
   std::vector<double> weight;  // m
 };
@@ -47,6 +47,6 @@ struct TreeLayer {
 // translation or rotation block, that is the d-th root of the block's determinant. A point's
 // observation weighs nothing in rotation. Throws an input Error for an edge that measures neither
 // (a camera's pixels, say), under any but unit weights.
-std::vector<TreeLayer> tree_layers(const Graph& graph, TreeWeights kind);
+std::vector<Layer> tree_layers(const Graph& graph, Weights kind);
 
 }  // namespace sg::trees

@@ -44,9 +44,9 @@ Choice choice(Graph graph, std::size_t one_in) {
   return {std::move(graph), std::move(candidates), count};
 }
 
-std::vector<TreeEdge> links_of(const Graph& graph) {
-  const TreeNodes nodes = tree_nodes(graph);
-  std::vector<TreeEdge> links;
+std::vector<Edge> links_of(const Graph& graph) {
+  const Nodes nodes = tree_nodes(graph);
+  std::vector<Edge> links;
   for (Index e = 0; e < graph.edges(); ++e)
     links.push_back({nodes.node[graph.edge(e)[0]], nodes.node[graph.edge(e)[1]]});
   return links;
@@ -54,7 +54,7 @@ std::vector<TreeEdge> links_of(const Graph& graph) {
 
 // Seconds of one round after `accepted` choices: a solve for every candidate that is left.
 double naive_round(const Choice& choice, std::span<const Accepted> accepted) {
-  const std::vector<TreeEdge> links = links_of(choice.graph);
+  const std::vector<Edge> links = links_of(choice.graph);
   std::vector<double> weight(links.size(), 1);
   for (Index e : choice.candidates) weight[e] = 0;
   for (const Accepted& step : accepted) weight[step.edge] = 1;
@@ -75,7 +75,7 @@ void tgreedy_run(benchmark::State& state, const Choice& choice) {
   double lazy = 0;
   for (auto _ : state) {
     const auto start = Clock::now();
-    accepted = tgreedy(choice.graph, choice.candidates, choice.count, TreeWeights::unit);
+    accepted = tgreedy(choice.graph, choice.candidates, choice.count, Weights::unit);
     lazy += seconds_since(start) / static_cast<double>(state.max_iterations);
   }
   double round = 0;  // mean over rounds at the middle of equal parts of the run

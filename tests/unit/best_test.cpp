@@ -27,7 +27,7 @@ TEST_CASE("what a region gains by reordering, the whole elimination gains", "[be
     const Pattern pattern = odd_pattern(random, n);
     const Order start =
         trial % 2 == 0 ? shuffled(random, n) : sg::order::elimination_order("amd", pattern);
-    const sg::order::OrderedElimination before = sg::order::elimination(pattern, start);
+    const sg::order::Elimination before = sg::order::elimination(pattern, start);
     REQUIRE(before.ec == sg::elim::elimination_complexity(pattern, start));
     REQUIRE(before.ec == sg::elim::elimination_complexity(pattern, before.order));
 

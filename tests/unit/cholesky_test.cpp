@@ -111,7 +111,7 @@ TEST_CASE("a matrix that is not positive definite is told from a failure", "[cho
 }
 
 TEST_CASE("spanning trees without memory are an error", "[cholesky]") {
-  const std::vector<trees::TreeEdge> links{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const std::vector<trees::Edge> links{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
   const std::vector<double> weight(links.size(), 1);
   double log_trees = 0;
   CHECK(allocations_of([&] { log_trees = trees::spanning_trees(4, links, weight).log_trees; }) >

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
-constexpr auto unit = trees::TreeWeights::unit;
+constexpr auto unit = trees::Weights::unit;
 
 struct Edge {
   int u, v;
@@ -94,11 +94,11 @@ TEST_CASE("spanning trees of known graphs", "[score]") {
 TEST_CASE("spanning trees weigh their edges", "[score]") {
   const double a = 1e-3, b = 1e6, c = 40, d = 2, e = 3, f = 5;
   const Graph triangle = graph_of(3, {{0, 1, a, d}, {1, 2, b, e}, {2, 0, c, f}});
-  CHECK(trees::log_trees(triangle, trees::TreeWeights::translation) ==
+  CHECK(trees::log_trees(triangle, trees::Weights::translation) ==
         Approx(std::log(a * b + b * c + c * a)));
-  CHECK(trees::log_trees(triangle, trees::TreeWeights::rotation) ==
+  CHECK(trees::log_trees(triangle, trees::Weights::rotation) ==
         Approx(std::log(d * e + e * f + f * d)));
-  CHECK(trees::log_trees(triangle, trees::TreeWeights::dopt) ==
+  CHECK(trees::log_trees(triangle, trees::Weights::dopt) ==
         Approx(2 * std::log(a * b + b * c + c * a) + std::log(d * e + e * f + f * d)));
 }
 
@@ -109,10 +109,9 @@ TEST_CASE("fixed vertices are one node, points do not rotate", "[score]") {
       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_XY 2 0 0\n"
       "EDGE_SE2 0 1 0 0 0 7 0 0 7 0 5\nEDGE_SE2_XY 0 2 0 0 3 0 3\n");
   CHECK(trees::log_trees(point, unit) == Approx(0).margin(1e-12));
-  CHECK(trees::log_trees(point, trees::TreeWeights::translation) == Approx(std::log(21)));
-  CHECK(trees::log_trees(point, trees::TreeWeights::rotation) == Approx(std::log(5)));
-  CHECK(trees::log_trees(point, trees::TreeWeights::dopt) ==
-        Approx(2 * std::log(21) + std::log(5)));
+  CHECK(trees::log_trees(point, trees::Weights::translation) == Approx(std::log(21)));
+  CHECK(trees::log_trees(point, trees::Weights::rotation) == Approx(std::log(5)));
+  CHECK(trees::log_trees(point, trees::Weights::dopt) == Approx(2 * std::log(21) + std::log(5)));
   CHECK(graph::average_observations(point) == Approx(1));
   CHECK(!graph::average_observations(graph_of(2, path(2))));
 }
@@ -121,7 +120,7 @@ TEST_CASE("algebraic connectivity of known graphs", "[score]") {
   CHECK(!trees::algebraic_connectivity(graph_of(1, {}), unit));
   CHECK(trees::algebraic_connectivity(graph_of(2, {}), unit) == 0);
   CHECK(trees::algebraic_connectivity(graph_of(4, {{0, 1}, {2, 3}}), unit) == 0);
-  CHECK(!trees::algebraic_connectivity(graph_of(2, path(2)), trees::TreeWeights::dopt));
+  CHECK(!trees::algebraic_connectivity(graph_of(2, path(2)), trees::Weights::dopt));
   for (int n : {2, 3, 10, 64, 65, 100, 700}) {
     CHECK(*trees::algebraic_connectivity(graph_of(n, path(n)), unit) ==
           Approx(2 - 2 * std::cos(pi / n)).epsilon(1e-8));
@@ -152,7 +151,7 @@ TEST_CASE("the iteration for connectivity gives what dense eigenvalues give", "[
       laplacian(e.u, e.v) -= e.translation, laplacian(e.v, e.u) -= e.translation;
     }
     const double expected = Eigen::SelfAdjointEigenSolver<MatrixXd>(laplacian).eigenvalues()[1];
-    CHECK(*trees::algebraic_connectivity(graph_of(n, edges), trees::TreeWeights::translation) ==
+    CHECK(*trees::algebraic_connectivity(graph_of(n, edges), trees::Weights::translation) ==
           Approx(expected).epsilon(1e-6));
   }
 }

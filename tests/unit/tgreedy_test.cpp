@@ -65,11 +65,11 @@ struct DenseLayer {
 // The definition in lib/prune/tgreedy.h, round by round. `now` says which candidates may be taken.
 struct Textbook {
   const Graph& graph;
-  trees::TreeNodes nodes = trees::tree_nodes(graph);
+  trees::Nodes nodes = trees::tree_nodes(graph);
   std::vector<DenseLayer> layers = {};
 
-  Textbook(const Graph& graph_, trees::TreeWeights kind) : graph(graph_) {
-    for (const trees::TreeLayer& layer : trees::tree_layers(graph, kind))
+  Textbook(const Graph& graph_, trees::Weights kind) : graph(graph_) {
+    for (const trees::Layer& layer : trees::tree_layers(graph, kind))
       layers.push_back({layer.multiplicity, layer.weight, DenseGraph(nodes.count)});
   }
   void add(Index e) {
@@ -116,7 +116,7 @@ struct Textbook {
 };
 
 std::vector<Index> textbook(const Graph& graph, const std::vector<Index>& candidates,
-                            std::size_t count, trees::TreeWeights kind) {
+                            std::size_t count, trees::Weights kind) {
   Textbook book(graph, kind);
   std::vector<bool> taken(graph.edges(), false), candidate(graph.edges(), false);
   for (Index e : candidates) candidate[e] = true;
@@ -134,7 +134,7 @@ std::vector<Index> textbook(const Graph& graph, const std::vector<Index>& candid
 
 std::vector<Index> textbook_online(const Graph& graph, const graph::PoseIndex& poses,
                                    const std::vector<Index>& candidates, std::size_t count,
-                                   trees::TreeWeights kind, Index batch) {
+                                   trees::Weights kind, Index batch) {
   Textbook book(graph, kind);
   const graph::Replay steps = graph::replay(graph, poses);
   std::vector<bool> taken(graph.edges(), false), candidate(graph.edges(), false);
@@ -208,11 +208,10 @@ TEST_CASE("the kept set is the textbook greedy's", "[tgreedy]") {
   for (int trial = 0; trial < 600; ++trial) {
     const Graph graph = graph_of(random_graph(random, trial % 2 == 0, trial % 5 == 0));
     const graph::PoseIndex poses = graph::pose_index(graph);
-    const trees::TreeWeights kind = static_cast<trees::TreeWeights>(trial % 4);
+    const trees::Weights kind = static_cast<trees::Weights>(trial % 4);
     const auto candidates = prune::candidate_edges(
         graph, poses, trial % 3 == 0 ? prune::Candidates::both : prune::natural_candidates(graph));
-    if (kind == trees::TreeWeights::rotation && trial % 2 == 0)
-      continue;  // points have no rotation
+    if (kind == trees::Weights::rotation && trial % 2 == 0) continue;  // points have no rotation
     const std::size_t count = draw(random, 0, static_cast<int>(candidates.size()) + 2);
     const auto kept = edges_of(prune::tgreedy(graph, candidates, count, kind));
     INFO("trial " << trial);
@@ -231,9 +230,9 @@ TEST_CASE("the online choice is the textbook's, batch by batch", "[tgreedy]") {
     const std::size_t count = draw(random, 0, static_cast<int>(candidates.size()) + 2);
     const Index batch = draw(random, 1, 4);
     INFO("trial " << trial);
-    CHECK(edges_of(prune::tgreedy_online(graph, poses, candidates, count, trees::TreeWeights::unit,
+    CHECK(edges_of(prune::tgreedy_online(graph, poses, candidates, count, trees::Weights::unit,
                                          batch)) ==
-          textbook_online(graph, poses, candidates, count, trees::TreeWeights::unit, batch));
+          textbook_online(graph, poses, candidates, count, trees::Weights::unit, batch));
   }
 }
 
@@ -244,7 +243,7 @@ TEST_CASE("gains add up to the criterion, and shrink", "[tgreedy]") {
     const auto candidates =
         prune::candidate_edges(graph, graph::pose_index(graph), prune::natural_candidates(graph));
     const auto accepted =
-        prune::tgreedy(graph, candidates, candidates.size(), trees::TreeWeights::dopt);
+        prune::tgreedy(graph, candidates, candidates.size(), trees::Weights::dopt);
     for (std::size_t k = 1; k < accepted.size(); ++k) {
       CHECK(accepted[k].criterion - accepted[k - 1].criterion ==
             Approx(accepted[k].gain).margin(1e-8));
@@ -261,7 +260,7 @@ TEST_CASE("intel: the textbook's choice", "[tgreedy]") {
   const auto candidates =
       prune::candidate_edges(graph, graph::pose_index(graph), prune::Candidates::loops);
   const auto accepted =
-      prune::tgreedy(graph, candidates, candidates.size() / 4, trees::TreeWeights::unit);
+      prune::tgreedy(graph, candidates, candidates.size() / 4, trees::Weights::unit);
 
   // Dense, with the inverse updated instead of computed in every round (Sherman, Morrison).
   DenseGraph dense(graph.vertices());
@@ -301,7 +300,7 @@ TEST_CASE("parts that candidates join come first, and nothing is lost", "[tgreed
       "EDGE_SE2 0 2" + tail + "EDGE_SE2 0 5" + tail + "EDGE_SE2 2 4" + tail);
   const graph::PoseIndex poses = graph::pose_index(graph);
   const auto candidates = prune::candidate_edges(graph, poses, prune::Candidates::loops);
-  const auto one = prune::tgreedy(graph, candidates, 1, trees::TreeWeights::unit);
+  const auto one = prune::tgreedy(graph, candidates, 1, trees::Weights::unit);
   REQUIRE(one.size() == 1);
   CHECK(graph.edge(one[0].edge)[1] == 5);
   CHECK(one[0].joins);
@@ -309,13 +308,13 @@ TEST_CASE("parts that candidates join come first, and nothing is lost", "[tgreed
   CHECK(prune::pose_parts(graph, poses, removed) == 1);
   for (Index e : candidates) removed[e] = true;
   CHECK(prune::pose_parts(graph, poses, removed) == 2);
-  CHECK(prune::tgreedy(graph, candidates, 99, trees::TreeWeights::unit).size() == 3);
-  CHECK(prune::tgreedy(graph, {}, 5, trees::TreeWeights::unit).empty());
+  CHECK(prune::tgreedy(graph, candidates, 99, trees::Weights::unit).size() == 3);
+  CHECK(prune::tgreedy(graph, {}, 5, trees::Weights::unit).empty());
 }
 
 TEST_CASE("spanning trees: formulas that everybody knows", "[tgreedy]") {
   for (int n = 1; n <= 12; ++n) {
-    std::vector<trees::TreeEdge> links;
+    std::vector<trees::Edge> links;
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) links.push_back({i, j});
     }
@@ -323,7 +322,7 @@ TEST_CASE("spanning trees: formulas that everybody knows", "[tgreedy]") {
     CHECK(trees::spanning_trees(n, links, unit).log_trees ==
           Approx((n - 2) * std::log(n)).margin(1e-9));  // Cayley
     trees::SpanningTrees grown = trees::spanning_trees(n, links, none);
-    for (const trees::TreeEdge& link : links) trees::add_link(grown, link, 1);
+    for (const trees::Edge& link : links) trees::add_link(grown, link, 1);
     CHECK(grown.log_trees == Approx((n - 2) * std::log(n)).margin(1e-9));
   }
   CHECK(trees::spanning_trees(0, {}, {}).log_trees == 0);
@@ -333,7 +332,7 @@ TEST_CASE("spanning trees of weights that differ wildly", "[tgreedy]") {
   Random random(4);
   for (int trial = 0; trial < 100; ++trial) {
     const int n = draw(random, 2, 9);
-    std::vector<trees::TreeEdge> links;
+    std::vector<trees::Edge> links;
     std::vector<double> weight;
     DenseGraph dense(n);
     const auto add = [&](int u, int v) {
