@@ -1,7 +1,10 @@
 #include "lib/prune/motion.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "lib/factor/whitening.h"
 #include "lib/geometry/information.h"
 #include "lib/geometry/numbers.h"
 #include "lib/geometry/triangle.h"
@@ -112,12 +115,31 @@ bool is_motion(graph::EdgeTag type) {
          type == graph::EdgeTag::expmap;
 }
 
+namespace {
+
+// What no solver takes is not composed either: it would become an edge that looks sound.
+void expect_sound(const Graph& graph, Index e, std::span<const double> numbers,
+                  std::size_t measurement, int dim) {
+  const auto fail = [&](const char* cause) {
+    throw graph::error_at(graph, graph.edge_line[e], cause);
+  };
+  if (!std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }))
+    fail("a number is not finite");
+  std::array<double, 36> root;
+  if (!factor::whitening(numbers.subspan(measurement), dim, root.data()))
+    fail("the information matrix is not positive semidefinite");
+}
+
+}  // namespace
+
 std::optional<Motion> motion(const Graph& graph, Index e) {
   const graph::EdgeTag type = graph.edge_tag(e);
   if (!is_motion(type)) return std::nullopt;
   thread_local std::vector<double> n;
   graph::edge_numbers(graph, e, n);
-  if (type == graph::EdgeTag::se2)
+  const bool planar = type == graph::EdgeTag::se2;
+  expect_sound(graph, e, n, planar ? 3 : 7, planar ? 3 : 6);
+  if (planar)
     return geometry::UncertainSE2{geometry::se2(n.data()),
                                   geometry::symmetric<Matrix3d>(std::span(n).subspan(3))};
   const SE3 mean = normalized(geometry::se3(n.data()));

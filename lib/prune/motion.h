@@ -31,7 +31,8 @@ using Motion = std::variant<geometry::UncertainSE2, geometry::UncertainSE3, Expm
 
 // Whether `motion` can read edges of this type.
 bool is_motion(graph::EdgeTag type);
-// The measurement of edge e, if it is of such a type.
+// The measurement of edge e, if it is of such a type. Throws an input Error where a number is not
+// finite or the information not positive semidefinite.
 std::optional<Motion> motion(const Graph& graph, Index e);
 
 // Of two motions of one type, the first then the second; first-order propagation of covariance.

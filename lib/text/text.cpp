@@ -137,10 +137,25 @@ std::string input_name(const std::string& path) {
   return path == "-" ? "<stdin>" : path;
 }
 
+namespace {
+
+// Editors of other systems begin a text with a mark of its encoding: UTF-8's says nothing, UTF-16 is
+// no text that graph files are written in.
+Text without_mark(Text text, const std::string& file) {
+  if (text.view.starts_with("\xEF\xBB\xBF")) text.view.remove_prefix(3);
+  if (text.view.starts_with("\xFF\xFE") || text.view.starts_with("\xFE\xFF"))
+    throw input_error(file, 1, "UTF-16 text: convert it (iconv -f UTF-16 -t UTF-8)");
+  return text;
+}
+
+}  // namespace
+
 Text read_text(const std::string& path) {
-  if (path == "-") return unpacked(drain(STDIN_FILENO, input_name(path)), input_name(path));
+  if (path == "-")
+    return without_mark(unpacked(drain(STDIN_FILENO, input_name(path)), input_name(path)),
+                        input_name(path));
   try {
-    return unpacked(read_path(path), path);
+    return without_mark(unpacked(read_path(path), path), path);
   } catch (const std::ios_base::failure& error) {
     throw input_error(path, 0, errno ? std::strerror(errno) : error.what());
   }

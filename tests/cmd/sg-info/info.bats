@@ -63,3 +63,10 @@ is() {
   is vertices 7120 "$SGTOOLS_DATA/victoriaPark.isam.txt"; is edges 10608 "$SGTOOLS_DATA/victoriaPark.isam.txt"
   is vertices 10000 "$SGTOOLS_DATA/city10000.g2o"; is edges 20687 "$SGTOOLS_DATA/city10000.g2o"
 }
+
+@test "a byte-order mark is passed over, and UTF-16 is named" {
+  { printf '\xEF\xBB\xBF'; cat "$TESTDATA/walk.g2o"; } >marked.g2o
+  diff <(sg-info --no-header marked.g2o | tail -n +2) <(sg-info --no-header walk.g2o | tail -n +2)
+  iconv -f UTF-8 -t UTF-16 "$TESTDATA/walk.g2o" >wide.g2o
+  fails 1 "sg-info: wide.g2o:1: UTF-16 text: convert it (iconv -f UTF-16 -t UTF-8)" sg-info wide.g2o
+}

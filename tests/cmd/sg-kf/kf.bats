@@ -82,3 +82,13 @@ setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
     [ "$kept" -le $((poses / 4 + poses / 10 + 1)) ]
   done
 }
+
+@test "what no solver takes is not composed: the line is named" {
+  sed '/EDGE_SE2 0 1/s/ [^ ]*$/ inf/' walk.g2o >inf.g2o
+  sed '/EDGE_SE2 0 1/s/ [^ ]*$/ -1/' walk.g2o >indefinite.g2o
+  line=$(grep -n 'EDGE_SE2 0 1' walk.g2o | cut -d: -f1)
+  fails 1 "sg-kf: inf.g2o:$line: a number is not finite" sg-kf -r 2 -o out.g2o inf.g2o
+  fails 1 "sg-kf: indefinite.g2o:$line: the information matrix is not positive semidefinite" \
+    sg-kf -r 2 -o out.g2o indefinite.g2o
+  [ ! -e out.g2o ]
+}

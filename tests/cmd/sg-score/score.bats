@@ -69,3 +69,9 @@ edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; do
   # what tgreedy's trace says is what sg-score measures
   near "$greedy" "$(sg-tgreedy -r 4 --trace "$SGTOOLS_DATA/intel.g2o" | tail -1 | cut -f6)"
 }
+
+@test "a trajectory that is not finite is not scored" {
+  sed '/^VERTEX_SE2 1 /s/ [^ ]*$/ nan/' walk.g2o >nan.g2o
+  line=$(grep -n '^VERTEX_SE2 1 ' walk.g2o | cut -d: -f1)
+  fails 1 "sg-score: nan.g2o:$line: a number is not finite" sg-score --reference nan.g2o -f ate_rmse walk.g2o
+}
