@@ -4,6 +4,8 @@
 #include "cmd/common/command.h"
 #include "lib/graph/check.h"
 
+using namespace sg;
+
 namespace {
 
 struct Message {
@@ -13,18 +15,18 @@ struct Message {
 };
 
 // What reading and checking find in one file, by line.
-std::vector<Message> messages(const std::string& path, sg::ReadOptions options) {
+std::vector<Message> messages(const std::string& path, formats::ReadOptions options) {
   std::vector<Message> found;
-  options.complaint = [&](const sg::Error& error) {
+  options.complaint = [&](const text::Error& error) {
     found.push_back({error.line, true, error.what()});
   };
-  const sg::Graph graph = sg::read_graph(path, options);
+  const Graph graph = formats::read_graph(path, options);
   if (graph.vertices() == 0) found.push_back({0, true, "there is no vertex and no edge in it"});
   // Findings ascend: their numbers take one pass over the text.
   std::size_t number = 1;
-  sg::Offset at = 0;
+  Offset at = 0;
   const std::string_view text = graph.text.view;
-  for (const sg::Finding& finding : sg::check(graph)) {
+  for (const graph::Finding& finding : graph::check(graph)) {
     number += std::count(text.begin() + at, text.begin() + std::max(at, finding.line), '\n');
     at = std::max(at, finding.line);
     found.push_back({number, finding.error, finding.cause});
@@ -34,11 +36,11 @@ std::vector<Message> messages(const std::string& path, sg::ReadOptions options) 
   return found;
 }
 
-int check(const sg::Command& command, const sg::Inputs& inputs, const std::string& path) {
-  sg::Output output(path);
+int check(const cmd::Command& command, const cmd::Inputs& inputs, const std::string& path) {
+  cmd::Output output(path);
   bool errors = false;
   for (const auto& file : inputs.paths) {
-    const std::string name = sg::input_name(file);
+    const std::string name = text::input_name(file);
     for (const Message& found : messages(file, inputs.options)) {
       errors = errors || found.error;
       if (command.quiet && !found.error) continue;
@@ -53,10 +55,10 @@ int check(const sg::Command& command, const sg::Inputs& inputs, const std::strin
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-check", "Find what is wrong with a graph: a line a finding.");
-  sg::Inputs inputs;
-  sg::OutputOptions output;
-  sg::add_inputs(command, inputs);
-  sg::add_output(command, output);
-  return sg::run_status(command, argc, argv, [&] { return check(command, inputs, output.path); });
+  cmd::Command command("sg-check", "Find what is wrong with a graph: a line a finding.");
+  cmd::Inputs inputs;
+  cmd::OutputOptions output;
+  cmd::add_inputs(command, inputs);
+  cmd::add_output(command, output);
+  return cmd::run_status(command, argc, argv, [&] { return check(command, inputs, output.path); });
 }

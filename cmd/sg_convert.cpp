@@ -6,75 +6,77 @@
 #include "lib/factor/initialize.h"
 #include "lib/solve/undetermined.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::Input input;
-  sg::OutputOptions output;
+  cmd::Input input;
+  cmd::OutputOptions output;
   std::string to = "g2o";
-  sg::WriteOptions write;
+  formats::WriteOptions write;
   bool estimates = false;
   bool lossy = false;
 };
 
 // The graph with a VERTEX line for every vertex, its estimate composed from the edges.
-sg::Graph with_estimates(const sg::Command& command, const sg::Graph& graph,
-                         sg::ReadOptions options) {
-  const sg::Problem problem = sg::make_problem(graph);
-  const sg::Composed start = sg::compose(problem);
+Graph with_estimates(const cmd::Command& command, const Graph& graph,
+                     formats::ReadOptions options) {
+  const factor::Problem problem = factor::make_problem(graph);
+  const factor::Composed start = factor::compose(problem);
   if (!start.adrift.empty()) {
-    std::vector<sg::Id> ids;
-    for (sg::Index v : start.adrift) ids.push_back(graph.id[v]);
+    std::vector<Id> ids;
+    for (Index v : start.adrift) ids.push_back(graph.id[v]);
     std::ranges::sort(ids);
-    sg::warn(
+    cmd::warn(
         command,
-        graph.file + ": no edge places " + sg::id_ranges(ids) +
+        graph.file + ": no edge places " + solve::id_ranges(ids) +
             " beside the poses before: at the origin (sg-solve moves them to where they belong)");
   }
   std::string text;
-  for (sg::Index v = 0; v < graph.vertices(); ++v) {
-    text += sg::vertex_line(problem, start.values, v);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    text += factor::vertex_line(problem, start.values, v);
   }
   text += graph.text.view;
   options.format = "g2o";
-  return sg::read_graph_text(sg::text_of(std::move(text)), graph.file, options);
+  return formats::read_graph_text(text::text_of(std::move(text)), graph.file, options);
 }
 
 // One line of what the format cannot hold: an error where a part of the graph would be missing.
-void report_losses(const sg::Command& command, const Options& options, const sg::Graph& graph) {
-  for (const sg::Loss& loss : sg::find_write_format(options.to).losses(graph)) {
+void report_losses(const cmd::Command& command, const Options& options, const Graph& graph) {
+  for (const formats::Loss& loss : formats::find_write_format(options.to).losses(graph)) {
     const bool error = loss.structure && !options.lossy;
     std::string cause = options.to + " cannot hold " + loss.what + " (" +
                         std::to_string(loss.count) + (loss.count == 1 ? " line" : " lines");
     cause += error ? "; --lossy leaves them out)" : ", left out)";
-    const sg::Error at_line = sg::error_at(graph, loss.first, cause);
+    const text::Error at_line = graph::error_at(graph, loss.first, cause);
     if (error) throw at_line;
-    sg::warn(command, sg::message(at_line));
+    cmd::warn(command, text::message(at_line));
   }
 }
 
-void convert(const sg::Command& command, const Options& options) {
-  const sg::WriteFormat& format = sg::find_write_format(options.to);
+void convert(const cmd::Command& command, const Options& options) {
+  const formats::WriteFormat& format = formats::find_write_format(options.to);
   if (options.write.scalar && options.to != "mtx")
-    throw sg::usage_error("--scalar belongs to --to mtx");
-  sg::Graph graph = sg::read(options.input);
+    throw text::usage_error("--scalar belongs to --to mtx");
+  Graph graph = cmd::read(options.input);
   report_losses(command, options, graph);
   if (graph.edges_only && (options.estimates || options.to == "tum"))
     graph = with_estimates(command, graph, options.input.options);
-  sg::Output output(options.output.path);
+  cmd::Output output(options.output.path);
   format.write(graph, options.write, output);
   output.commit();
 }
 
 std::string known_formats() {
   std::string known;
-  for (const sg::WriteFormat& format : sg::write_formats())
+  for (const formats::WriteFormat& format : formats::write_formats())
     known += (known.empty() ? "" : ", ") + std::string(format.name);
   return known;
 }
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_input(command, options.input);
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_input(command, options.input);
   command.app.add_option("--to", options.to, known_formats() + " (default: g2o)")
       ->option_text("FORMAT");
   command.app.add_flag("--scalar", options.write.scalar,
@@ -82,12 +84,12 @@ void add_options(sg::Command& command, Options& options) {
   command.app.add_flag("--estimates", options.estimates,
                        "In an edges-only file: add VERTEX lines,\ncomposed along odometry");
   command.app.add_flag("--lossy", options.lossy, "Leave out what the format cannot hold");
-  sg::add_output(command, options.output);
+  cmd::add_output(command, options.output);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(sg::Command("sg-convert", "Write a graph in another format."), argc, argv,
-                 add_options, convert);
+  return cmd::run(cmd::Command("sg-convert", "Write a graph in another format."), argc, argv,
+                  add_options, convert);
 }

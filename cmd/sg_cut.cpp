@@ -6,59 +6,61 @@
 #include "lib/graph/cut.h"
 #include "lib/text/words.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::Input input;
-  sg::OutputOptions output;
-  std::optional<sg::Index> poses;
-  sg::Index min_obs = 1;
+  cmd::Input input;
+  cmd::OutputOptions output;
+  std::optional<Index> poses;
+  Index min_obs = 1;
   std::string range;
-  std::optional<sg::Id> component;
+  std::optional<Id> component;
   bool largest = false;
   std::vector<std::string> ids;
 };
 
 // "A" or "A:B"; a usage Error for anything else.
-std::pair<sg::Id, sg::Id> parse_range(std::string_view text) {
+std::pair<Id, Id> parse_range(std::string_view text) {
   const auto colon = text.find(':');
-  const auto first = sg::parse<sg::Id>(text.substr(0, colon));
-  const auto last = colon == text.npos ? first : sg::parse<sg::Id>(text.substr(colon + 1));
+  const auto first = text::parse<Id>(text.substr(0, colon));
+  const auto last = colon == text.npos ? first : text::parse<Id>(text.substr(colon + 1));
   if (!first || !last || *first < 0 || *last < *first)
-    throw sg::usage_error("'" + std::string(text) + "' is no range FIRST:LAST");
+    throw text::usage_error("'" + std::string(text) + "' is no range FIRST:LAST");
   return {*first, *last};
 }
 
-sg::Part ranges_of_ids(const sg::Graph& graph, const std::vector<std::string>& ids) {
-  std::vector<std::pair<sg::Id, sg::Id>> ranges;
+graph::Part ranges_of_ids(const Graph& graph, const std::vector<std::string>& ids) {
+  std::vector<std::pair<Id, Id>> ranges;
   ranges.reserve(ids.size());
   for (const auto& text : ids) ranges.push_back(parse_range(text));
-  return sg::of_ids(graph, ranges);
+  return graph::of_ids(graph, ranges);
 }
 
-sg::Part range_of_poses(const sg::Graph& graph, const std::string& text) {
+graph::Part range_of_poses(const Graph& graph, const std::string& text) {
   const auto [first, last] = parse_range(text);
-  const sg::PoseIndex poses = sg::pose_index(graph);
-  const auto count = static_cast<sg::Id>(poses.pose.size());
+  const graph::PoseIndex poses = graph::pose_index(graph);
+  const auto count = static_cast<Id>(poses.pose.size());
   if (first >= count)
-    throw sg::usage_error("--range begins at pose " + std::to_string(first) + ", but there are " +
-                          std::to_string(count));
-  return sg::pose_range(graph, poses, static_cast<sg::Index>(first),
-                        static_cast<sg::Index>(std::min(last, count - 1)));
+    throw text::usage_error("--range begins at pose " + std::to_string(first) + ", but there are " +
+                            std::to_string(count));
+  return graph::pose_range(graph, poses, static_cast<Index>(first),
+                           static_cast<Index>(std::min(last, count - 1)));
 }
 
-sg::Part component_of(const sg::Graph& graph, sg::Id id) {
-  const auto v = sg::find_vertex(graph, id);
-  if (!v) throw sg::usage_error("--component: the graph has no vertex " + std::to_string(id));
-  return sg::component_of(graph, *v);
+graph::Part component_of(const Graph& graph, Id id) {
+  const auto v = graph::find_vertex(graph, id);
+  if (!v) throw text::usage_error("--component: the graph has no vertex " + std::to_string(id));
+  return graph::component_of(graph, *v);
 }
 
-sg::Part part(const sg::Graph& graph, const Options& options) {
+graph::Part part(const Graph& graph, const Options& options) {
   if (options.poses)
-    return sg::first_steps(graph, sg::pose_index(graph), *options.poses, options.min_obs);
+    return graph::first_steps(graph, graph::pose_index(graph), *options.poses, options.min_obs);
   if (!options.range.empty()) return range_of_poses(graph, options.range);
   if (options.component) return component_of(graph, *options.component);
-  if (options.largest) return sg::largest_component(graph);
+  if (options.largest) return graph::largest_component(graph);
   return ranges_of_ids(graph, options.ids);
 }
 
@@ -66,32 +68,32 @@ void check_call(const Options& options) {
   const int parts = options.poses.has_value() + !options.range.empty() +
                     options.component.has_value() + options.largest + !options.ids.empty();
   if (parts != 1)
-    throw sg::usage_error("one of --poses, --range, --component, --largest and --ids is needed");
+    throw text::usage_error("one of --poses, --range, --component, --largest and --ids is needed");
 }
 
-void check_rest(const sg::Graph& graph, const sg::Part& kept) {
+void check_rest(const Graph& graph, const graph::Part& kept) {
   const auto any = [](const std::vector<bool>& of) {
     return std::find(of.begin(), of.end(), true) != of.end();
   };
   if (any(kept.edge) || (any(kept.vertex) && !graph.edges_only)) return;
-  throw sg::input_error(graph.file, 0, "the part holds no vertex and no edge");
+  throw text::input_error(graph.file, 0, "the part holds no vertex and no edge");
 }
 
-void cut(const sg::Command& command, const Options& options) {
+void cut(const cmd::Command& command, const Options& options) {
   check_call(options);
-  const sg::Graph graph = sg::read(options.input);
-  sg::Part kept = part(graph, options);
+  const Graph graph = cmd::read(options.input);
+  graph::Part kept = part(graph, options);
   check_rest(graph, kept);
-  sg::Changes changes = sg::unchanged(graph);
+  formats::Changes changes = formats::unchanged(graph);
   kept.vertex.flip();
   kept.edge.flip();
   changes.drop_vertex = std::move(kept.vertex);
   changes.drop_edge = std::move(kept.edge);
-  sg::write_filtered(command, options.output, graph, std::move(changes));
+  cmd::write_filtered(command, options.output, graph, std::move(changes));
 }
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_input(command, options.input);
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_input(command, options.input);
   auto& app = command.app;
   app.add_option("--poses", options.poses, "Keep the first N steps of the replay")
       ->check(CLI::PositiveNumber)
@@ -105,12 +107,12 @@ void add_options(sg::Command& command, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("ID,FIRST:LAST,...");
-  sg::add_entry(app, options.min_obs, "With --poses: a landmark");
-  sg::add_filter_output(command, options.output);
+  cmd::add_entry(app, options.min_obs, "With --poses: a landmark");
+  cmd::add_filter_output(command, options.output);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(sg::Command("sg-cut", "Keep a part of a graph."), argc, argv, add_options, cut);
+  return cmd::run(cmd::Command("sg-cut", "Keep a part of a graph."), argc, argv, add_options, cut);
 }

@@ -10,16 +10,18 @@
 #include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::Inputs inputs;
-  sg::OutputOptions output;
-  sg::TableOptions table;
-  sg::MethodOptions methods;
+  cmd::Inputs inputs;
+  cmd::OutputOptions output;
+  cmd::TableOptions table;
+  cmd::MethodOptions methods;
   bool trace = false;
-  sg::Index every = 1;
-  sg::Index min_obs = 1;
+  Index every = 1;
+  Index min_obs = 1;
   bool per_vertex = false;
 };
 
@@ -27,59 +29,59 @@ struct Options {
 struct Subject {
   const Options& options;
   const std::string& file;
-  std::optional<sg::Index> step;
-  sg::Index vertices;
-  sg::Index edges;
-  const sg::Graph& graph;
-  const sg::GraphPattern& variables;
-  const sg::Method* method = nullptr;
+  std::optional<Index> step;
+  Index vertices;
+  Index edges;
+  const Graph& graph;
+  const graph::GraphPattern& variables;
+  const cmd::Method* method = nullptr;
 };
 
-sg::Order order_of(const Subject& subject) {
-  return sg::order_by(*subject.method, subject.options.methods, subject.graph, subject.variables);
+graph::Order order_of(const Subject& subject) {
+  return cmd::order_by(*subject.method, subject.options.methods, subject.graph, subject.variables);
 }
 
 struct ScoreRow {
   const Subject& subject;
-  std::optional<sg::Symbolic> symbolic_ = {};
-  std::optional<sg::Score> score_ = {};
-  std::optional<sg::BayesTree> tree_ = {};
+  std::optional<elim::Symbolic> symbolic_ = {};
+  std::optional<elim::Score> score_ = {};
+  std::optional<elim::BayesTree> tree_ = {};
 
-  const sg::Pattern& pattern() const { return subject.variables.pattern; }
-  const sg::Symbolic& symbolic() {
-    return sg::once(symbolic_, [&] { return sg::symbolic(pattern(), order_of(subject)); });
+  const graph::Pattern& pattern() const { return subject.variables.pattern; }
+  const elim::Symbolic& symbolic() {
+    return cmd::once(symbolic_, [&] { return elim::symbolic(pattern(), order_of(subject)); });
   }
-  const sg::Score& score() {
-    return sg::once(score_, [&] { return sg::column_score(symbolic()); });
+  const elim::Score& score() {
+    return cmd::once(score_, [&] { return elim::column_score(symbolic()); });
   }
-  const sg::BayesTree& tree() {
-    return sg::once(tree_, [&] { return sg::bayes_tree(symbolic()); });
+  const elim::BayesTree& tree() {
+    return cmd::once(tree_, [&] { return elim::bayes_tree(symbolic()); });
   }
 };
 
 struct VertexRow {
   const Subject& subject;
-  sg::Index vertex;
+  Index vertex;
   std::size_t position;
   std::int64_t frontal;
   std::int64_t separator;
   double ec;
 
-  sg::Wide cost() const { return sg::elimination_cost(frontal, frontal + separator); }
+  elim::Wide cost() const { return elim::elimination_cost(frontal, frontal + separator); }
 };
 
 template <class Row>
-sg::Column<Row> file_column() {
+cmd::Column<Row> file_column() {
   return {"file", "The file", [](Row& row) { return row.subject.file; }, "several files"};
 }
 
 template <class Row>
-sg::Column<Row> order_column() {
+cmd::Column<Row> order_column() {
   return {"order", "The ordering; file:NAME is the one that sg-order left",
           [](Row& row) { return row.subject.method->label; }};
 }
 
-const std::vector<sg::Column<ScoreRow>> score_columns{
+const std::vector<cmd::Column<ScoreRow>> score_columns{
     file_column<ScoreRow>(),
     {"step", "Of the replay, from 0", [](ScoreRow& row) { return row.subject.step; }, "--trace"},
     order_column<ScoreRow>(),
@@ -96,36 +98,36 @@ const std::vector<sg::Column<ScoreRow>> score_columns{
     {"flops", "The same by CHOLMOD's count", [](ScoreRow& row) { return row.score().flops; }},
     {"nnz", "Entries of the factor", [](ScoreRow& row) { return row.score().nnz; }},
     {"fill", "Those of them that the system matrix did not have",
-     [](ScoreRow& row) { return row.score().nnz - sg::system_nnz(row.pattern()); }},
+     [](ScoreRow& row) { return row.score().nnz - elim::system_nnz(row.pattern()); }},
     {"max_clique", "The largest d_f + d_s", [](ScoreRow& row) { return row.score().max_clique; }},
     {"height", "Variables on the longest path of the elimination tree",
      [](ScoreRow& row) { return row.score().height; }},
     {"cliques", "Cliques of the Bayes tree", [](ScoreRow& row) { return row.tree().cliques(); }},
     {"ec_bt", "Elimination complexity of the Bayes tree: the sum over cliques",
-     [](ScoreRow& row) { return sg::elimination_complexity(row.tree()); }},
+     [](ScoreRow& row) { return elim::elimination_complexity(row.tree()); }},
 };
 
-const std::vector<sg::Column<VertexRow>> vertex_columns{
+const std::vector<cmd::Column<VertexRow>> vertex_columns{
     file_column<VertexRow>(),
     order_column<VertexRow>(),
     {"id", "Of the vertex", [](VertexRow& row) { return row.subject.graph.id[row.vertex]; }},
     {"tag", "Its type",
      [](VertexRow& row) { return row.subject.graph.type_of_vertex(row.vertex).tag; }},
     {"role", "pose, landmark or other",
-     [](VertexRow& row) { return sg::name(row.subject.graph.role(row.vertex)); }},
+     [](VertexRow& row) { return graph::name(row.subject.graph.role(row.vertex)); }},
     {"position", "In the order, from 0", &VertexRow::position},
     {"d_f", "Its scalar dimension", &VertexRow::frontal},
     {"d_s", "Scalar dimension of its separator", &VertexRow::separator},
     {"cost", "d_f (d_f + d_s)^2", [](VertexRow& row) { return row.cost(); }},
-    {"share", "Of EC", [](VertexRow& row) { return sg::to_double(row.cost()) / row.ec; }},
+    {"share", "Of EC", [](VertexRow& row) { return elim::to_double(row.cost()) / row.ec; }},
 };
 
-void vertex_rows(sg::Table<VertexRow>& table, const Subject& subject) {
-  const sg::Order order = order_of(subject);
-  const sg::Symbolic symbolic = sg::symbolic(subject.variables.pattern, order);
-  const double ec = sg::to_double(sg::elimination_complexity(symbolic));
+void vertex_rows(cmd::Table<VertexRow>& table, const Subject& subject) {
+  const graph::Order order = order_of(subject);
+  const elim::Symbolic symbolic = elim::symbolic(subject.variables.pattern, order);
+  const double ec = elim::to_double(elim::elimination_complexity(symbolic));
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const sg::Index vertex = subject.variables.variable_vertex[order[k]];
+    const Index vertex = subject.variables.variable_vertex[order[k]];
     const std::int64_t frontal = symbolic.dim[k];
     table.row({subject, vertex, k, frontal, symbolic.count[k] - frontal, ec});
   }
@@ -135,69 +137,69 @@ using Show = std::function<void(const Subject&)>;
 
 // The graph as it grows: calls `show` with what stands after every `every`-th step and after the
 // last.
-void replay_rows(const sg::Graph& graph, const std::string& file, const Options& options,
+void replay_rows(const Graph& graph, const std::string& file, const Options& options,
                  const Show& show) {
-  const sg::Replay replay = sg::replay(graph, sg::pose_index(graph), options.min_obs);
-  const sg::Lists<> vertices = sg::grouped(replay.vertex_step, replay.steps);
-  const sg::Lists<> edges = sg::grouped(replay.edge_step, replay.steps);
+  const graph::Replay replay = graph::replay(graph, graph::pose_index(graph), options.min_obs);
+  const graph::Lists<> vertices = graph::grouped(replay.vertex_step, replay.steps);
+  const graph::Lists<> edges = graph::grouped(replay.edge_step, replay.steps);
   std::vector<bool> vertex_in(graph.vertices(), false);
   std::vector<bool> edge_in(graph.edges(), false);
-  sg::Progress progress("sg-ec", "step", replay.steps);
-  for (sg::Index k = 0; k < replay.steps; ++k) {
-    for (const sg::Index v : vertices[k]) vertex_in[v] = true;
-    for (const sg::Index e : edges[k]) edge_in[e] = true;
+  cmd::Progress progress("sg-ec", "step", replay.steps);
+  for (Index k = 0; k < replay.steps; ++k) {
+    for (const Index v : vertices[k]) vertex_in[v] = true;
+    for (const Index e : edges[k]) edge_in[e] = true;
     progress.update(k);
     if (k % options.every != 0 && k + 1 < replay.steps) continue;
-    const sg::GraphPattern variables = sg::graph_pattern(graph, vertex_in, edge_in);
+    const graph::GraphPattern variables = graph::graph_pattern(graph, vertex_in, edge_in);
     show({options, file, k, vertices.begin[k + 1], edges.begin[k + 1], graph, variables});
   }
 }
 
 void show_file(const std::string& path, const Options& options, const Show& show) {
-  const sg::Graph graph = sg::read(options.inputs, path);
-  const std::vector<sg::Method> methods = sg::methods(options.methods, graph);
+  const Graph graph = cmd::read(options.inputs, path);
+  const std::vector<cmd::Method> methods = cmd::methods(options.methods, graph);
   const Show under_each = [&](Subject subject) {
-    for (const sg::Method& method : methods) {
+    for (const cmd::Method& method : methods) {
       subject.method = &method;
       show(subject);
     }
   };
   if (options.trace) return replay_rows(graph, path, options, under_each);
-  const sg::GraphPattern variables = sg::graph_pattern(graph);
+  const graph::GraphPattern variables = graph::graph_pattern(graph);
   under_each({options, path, {}, graph.vertices(), graph.edges(), graph, variables});
 }
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_inputs(command, options.inputs);
-  sg::add_methods(command, options.methods);
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_inputs(command, options.inputs);
+  cmd::add_methods(command, options.methods);
   auto& app = command.app;
   auto* trace = app.add_flag("--trace", options.trace, "A row for every step of the growing graph")
                     ->option_text(" ");
-  sg::add_every(app, options.every, "With --trace:")->needs(trace);
-  sg::add_entry(app, options.min_obs, "With --trace: a landmark")->needs(trace);
+  cmd::add_every(app, options.every, "With --trace:")->needs(trace);
+  cmd::add_entry(app, options.min_obs, "With --trace: a landmark")->needs(trace);
   app.add_flag("--per-vertex", options.per_vertex, "A row for every variable, in elimination order")
       ->excludes(trace)
       ->option_text(" ");
-  sg::add_output(command, options.output);
-  sg::add_table(
+  cmd::add_output(command, options.output);
+  cmd::add_table(
       command, options.table,
-      {{"", sg::headings(score_columns)}, {"With --per-vertex:", sg::headings(vertex_columns)}});
+      {{"", cmd::headings(score_columns)}, {"With --per-vertex:", cmd::headings(vertex_columns)}});
 }
 
-void score(const sg::Command& /*command*/, const Options& options) {
-  sg::check(options.methods);
-  const sg::Given given{{"several files", options.inputs.paths.size() > 1},
-                        {"--trace", options.trace}};
-  sg::Output output(options.output.path);
+void score(const cmd::Command& /*command*/, const Options& options) {
+  cmd::check(options.methods);
+  const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
+                         {"--trace", options.trace}};
+  cmd::Output output(options.output.path);
   const auto show_files = [&](const Show& show) {
     for (const auto& path : options.inputs.paths) show_file(path, options, show);
     output.commit();
   };
   if (options.per_vertex) {
-    sg::Table table(options.table, vertex_columns, given, output);
+    cmd::Table table(options.table, vertex_columns, given, output);
     show_files([&](const Subject& subject) { vertex_rows(table, subject); });
   } else {
-    sg::Table table(options.table, score_columns, given, output);
+    cmd::Table table(options.table, score_columns, given, output);
     show_files([&](const Subject& subject) { table.row({subject}); });
   }
 }
@@ -205,6 +207,6 @@ void score(const sg::Command& /*command*/, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(sg::Command("sg-ec", "Score the elimination complexity of graphs."), argc, argv,
-                 add_options, score);
+  return cmd::run(cmd::Command("sg-ec", "Score the elimination complexity of graphs."), argc, argv,
+                  add_options, score);
 }

@@ -7,42 +7,44 @@
 #include "lib/elim/score.h"
 #include "lib/text/error.h"
 
+using namespace sg;
+
 namespace {
 
 // Adjacency by bits: 3 GB at this size, where nobody reads the result either.
-constexpr sg::Index most_variables = 150'000;
+constexpr Index most_variables = 150'000;
 
 struct Names {
-  const sg::Graph& graph;
-  const sg::GraphPattern& variables;
-  sg::Id operator()(sg::Index j) const { return graph.id[variables.variable_vertex[j]]; }
+  const Graph& graph;
+  const graph::GraphPattern& variables;
+  Id operator()(Index j) const { return graph.id[variables.variable_vertex[j]]; }
 };
 
 struct Row {
   const Names& id_of;
-  const sg::EliminationStep& eliminated;
+  const elim::EliminationStep& eliminated;
   std::size_t step;
 
-  std::int64_t dim(sg::Index j) const { return id_of.variables.pattern.dim[j]; }
+  std::int64_t dim(Index j) const { return id_of.variables.pattern.dim[j]; }
   std::int64_t frontal() const { return dim(eliminated.variable); }
   std::int64_t separator() const {
     std::int64_t sum = 0;
-    for (const sg::Index j : eliminated.neighbours) sum += dim(j);
+    for (const Index j : eliminated.neighbours) sum += dim(j);
     return sum;
   }
-  sg::IdList neighbours() const {
-    sg::IdList ids;
-    for (const sg::Index j : eliminated.neighbours) ids.push_back(id_of(j));
+  cmd::IdList neighbours() const {
+    cmd::IdList ids;
+    for (const Index j : eliminated.neighbours) ids.push_back(id_of(j));
     return ids;
   }
-  sg::IdPairs fill() const {
-    sg::IdPairs pairs;
+  cmd::IdPairs fill() const {
+    cmd::IdPairs pairs;
     for (const auto& [a, b] : eliminated.fill) pairs.emplace_back(id_of(a), id_of(b));
     return pairs;
   }
 };
 
-const std::vector<sg::Column<Row>> columns{
+const std::vector<cmd::Column<Row>> columns{
     {"step", "From 0", &Row::step},
     {"variable", "Id of the variable that goes",
      [](Row& row) { return row.id_of(row.eliminated.variable); }},
@@ -51,23 +53,25 @@ const std::vector<sg::Column<Row>> columns{
     {"d_f", "Scalar dimension of the variable", &Row::frontal},
     {"d_s", "Scalar dimension of its separator", &Row::separator},
     {"cost", "d_f (d_f + d_s)^2; the sum is the elimination complexity",
-     [](Row& row) { return sg::elimination_cost(row.frontal(), row.frontal() + row.separator()); }},
+     [](Row& row) {
+       return elim::elimination_cost(row.frontal(), row.frontal() + row.separator());
+     }},
 };
 
-using Edge = std::pair<sg::Index, sg::Index>;  // of variables, first < second
+using Edge = std::pair<Index, Index>;  // of variables, first < second
 
-Edge edge(sg::Index a, sg::Index b) {
+Edge edge(Index a, Index b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
 // What is left of the graph before a step.
 struct EliminationGraph {
-  std::vector<sg::Index> nodes;
+  std::vector<Index> nodes;
   std::set<Edge> given;  // edges of the graph itself
   std::set<Edge> fill;   // induced by earlier steps
 };
 
-void eliminate(EliminationGraph& left, const sg::EliminationStep& step) {
+void eliminate(EliminationGraph& left, const elim::EliminationStep& step) {
   std::erase(left.nodes, step.variable);
   const auto touches = [&](const Edge& e) {
     return e.first == step.variable || e.second == step.variable;
@@ -78,13 +82,12 @@ void eliminate(EliminationGraph& left, const sg::EliminationStep& step) {
 }
 
 // One cluster of the drawing: the variable whose turn it is filled, induced edges dashed.
-std::string cluster(std::size_t k, const EliminationGraph& left, sg::Index next,
-                    const Names& id_of) {
+std::string cluster(std::size_t k, const EliminationGraph& left, Index next, const Names& id_of) {
   const std::string prefix = "g" + std::to_string(k) + "_";
-  const auto node = [&](sg::Index j) { return prefix + std::to_string(id_of(j)); };
+  const auto node = [&](Index j) { return prefix + std::to_string(id_of(j)); };
   std::string text = "  subgraph cluster_" + std::to_string(k) + " {\n    label=\"G(" +
                      std::to_string(k) + ")\";\n";
-  for (const sg::Index j : left.nodes) {
+  for (const Index j : left.nodes) {
     text += "    " + node(j) + " [label=\"" + std::to_string(id_of(j)) + "\"" +
             (j == next ? ", style=filled" : "") + "];\n";
   }
@@ -94,13 +97,13 @@ std::string cluster(std::size_t k, const EliminationGraph& left, sg::Index next,
   return text + "  }\n";
 }
 
-void print_dot(const sg::Pattern& pattern, const Names& id_of, const sg::Order& order,
-               const std::vector<sg::EliminationStep>& steps, sg::Output& output) {
+void print_dot(const graph::Pattern& pattern, const Names& id_of, const graph::Order& order,
+               const std::vector<elim::EliminationStep>& steps, cmd::Output& output) {
   EliminationGraph left{order, {}, {}};
   std::sort(left.nodes.begin(), left.nodes.end());
-  for (sg::Index r = 0; r < pattern.rows.size(); ++r) {
-    for (const sg::Index a : pattern.rows[r]) {
-      for (const sg::Index b : pattern.rows[r]) {
+  for (Index r = 0; r < pattern.rows.size(); ++r) {
+    for (const Index a : pattern.rows[r]) {
+      for (const Index b : pattern.rows[r]) {
         if (a < b) left.given.emplace(a, b);
       }
     }
@@ -113,37 +116,37 @@ void print_dot(const sg::Pattern& pattern, const Names& id_of, const sg::Order& 
   output.write("}\n");
 }
 
-void show(const sg::Command& /*command*/, const sg::DrawingOptions& options) {
-  sg::check(options.method);
-  const sg::Graph graph = sg::read(options.input);
-  const sg::GraphPattern variables = sg::graph_pattern(graph);
-  const sg::Pattern& pattern = variables.pattern;
+void show(const cmd::Command& /*command*/, const cmd::DrawingOptions& options) {
+  cmd::check(options.method);
+  const Graph graph = cmd::read(options.input);
+  const graph::GraphPattern variables = graph::graph_pattern(graph);
+  const graph::Pattern& pattern = variables.pattern;
   if (pattern.variables() > most_variables) {
-    throw sg::input_error(graph.file, 0,
-                          std::to_string(pattern.variables()) +
-                              " variables are too many to simulate one by one (at most " +
-                              std::to_string(most_variables) + "); sg-ec scores any graph");
+    throw text::input_error(graph.file, 0,
+                            std::to_string(pattern.variables()) +
+                                " variables are too many to simulate one by one (at most " +
+                                std::to_string(most_variables) + "); sg-ec scores any graph");
   }
-  const sg::Order order = sg::named_order(options.method, graph, variables).order;
-  const auto steps = sg::node_elimination(pattern, order);
+  const graph::Order order = cmd::named_order(options.method, graph, variables).order;
+  const auto steps = elim::node_elimination(pattern, order);
   const Names id_of{graph, variables};
-  sg::Output output(options.output.path);
+  cmd::Output output(options.output.path);
   if (options.dot) {
     print_dot(pattern, id_of, order, steps, output);
   } else {
-    sg::Table table(options.table, columns, {}, output);
+    cmd::Table table(options.table, columns, {}, output);
     for (std::size_t k = 0; k < steps.size(); ++k) table.row({id_of, steps[k], k});
   }
   output.commit();
 }
 
-void add_options(sg::Command& command, sg::DrawingOptions& options) {
-  sg::add_drawing(command, options, "elimination graphs", columns);
+void add_options(cmd::Command& command, cmd::DrawingOptions& options) {
+  cmd::add_drawing(command, options, "elimination graphs", columns);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(sg::Command("sg-elim", "Eliminate a graph node by node: neighbours and fill."),
-                 argc, argv, add_options, show);
+  return cmd::run(cmd::Command("sg-elim", "Eliminate a graph node by node: neighbours and fill."),
+                  argc, argv, add_options, show);
 }

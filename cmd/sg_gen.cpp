@@ -4,38 +4,40 @@
 #include "cmd/common/command.h"
 #include "cmd/gen/worlds.h"
 
+using namespace sg;
+
 namespace {
 
-void write(sg::Output& output, const std::string& comment, const sg::Writer& writer,
-           sg::Copy copy) {
-  sg::Out out{[&](std::string_view text) { output.write(text); }};
+void write(cmd::Output& output, const std::string& comment, const gen::Writer& writer,
+           world::Copy copy) {
+  world::Out out{[&](std::string_view text) { output.write(text); }};
   output.write(comment);
   writer(copy, out);
-  flush(out);
+  world::flush(out);
 }
 
 struct Files {
-  sg::OutputOptions output;
+  cmd::OutputOptions output;
   std::string truth;
 };
 
 void add_files(CLI::App& app, Files& files) {
   app.add_option("--truth", files.truth, "Write the same graph without noise, too")
       ->type_name("FILE");
-  sg::add_filter_output(app, files.output);
+  cmd::add_filter_output(app, files.output);
 }
 
-void generate(const sg::Command& command, const Files& files, const sg::Maker& maker) {
-  const sg::Writer writer = maker();
-  const std::string comment = trace_comment(command, files.output);
-  sg::Output noisy(files.output.path);
+void generate(const cmd::Command& command, const Files& files, const gen::Maker& maker) {
+  const gen::Writer writer = maker();
+  const std::string comment = cmd::trace_comment(command, files.output);
+  cmd::Output noisy(files.output.path);
   if (files.truth.empty()) {
-    write(noisy, comment, writer, sg::Copy::noisy);
+    write(noisy, comment, writer, world::Copy::noisy);
     return noisy.commit();
   }
-  sg::Output exact(files.truth);
-  write(exact, comment, writer, sg::Copy::exact);
-  write(noisy, comment, writer, sg::Copy::noisy);
+  cmd::Output exact(files.truth);
+  write(exact, comment, writer, world::Copy::exact);
+  write(noisy, comment, writer, world::Copy::noisy);
   exact.commit();  // both or none
   noisy.commit();
 }
@@ -43,19 +45,20 @@ void generate(const sg::Command& command, const Files& files, const sg::Maker& m
 }  // namespace
 
 int main(int argc, char** argv) {
-  sg::Command command("sg-gen", "Generate a graph. `sg-gen WORLD --help` lists a world's options.");
+  cmd::Command command("sg-gen",
+                       "Generate a graph. `sg-gen WORLD --help` lists a world's options.");
   Files files;
-  std::map<const CLI::App*, sg::Maker> makers;
+  std::map<const CLI::App*, gen::Maker> makers;
   command.app.require_subcommand(0, 1);  // what is left over then, a wrong world, is named
   command.app.get_formatter()->label("SUBCOMMAND", "WORLD");
-  for (const sg::World& world : sg::worlds) {
+  for (const gen::World& world : gen::worlds) {
     CLI::App* app =
         command.app.add_subcommand(world.name, world.what)->group("Worlds")->fallthrough();
     makers[app] = world.add(*app);
     add_files(*app, files);
   }
-  return sg::run(command, argc, argv, [&] {
-    if (command.app.get_subcommands().empty()) throw sg::usage_error("which WORLD?");
+  return cmd::run(command, argc, argv, [&] {
+    if (command.app.get_subcommands().empty()) throw text::usage_error("which WORLD?");
     generate(command, files, makers.at(command.app.get_subcommands().front()));
   });
 }

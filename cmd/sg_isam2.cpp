@@ -13,15 +13,17 @@
 #include "lib/solve/isam2_replay.h"
 #include "lib/solve/snapshot.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::Input input;
-  sg::OutputOptions output;
-  sg::TableOptions table;
-  sg::Isam2Options isam;
-  sg::Index min_obs = 1;
-  sg::Index every = 1;
+  cmd::Input input;
+  cmd::OutputOptions output;
+  cmd::TableOptions table;
+  solve::Isam2Options isam;
+  Index min_obs = 1;
+  Index every = 1;
   bool from_file = false;
   bool colamd = false, chi2 = false, batch = false;
 };
@@ -36,41 +38,41 @@ double processor_seconds() {
 
 // What the whole graph costs in batch, in COLAMD's order.
 struct Whole {
-  sg::Order order;
-  sg::Wide ec;
+  graph::Order order;
+  elim::Wide ec;
 };
 
-Whole whole(const sg::Isam2& isam) {
-  sg::Snapshot snapshot;
-  sg::take_snapshot(isam, false, snapshot);
-  sg::Order order = sg::elimination_order("colamd", snapshot.pattern);
-  const sg::Wide ec = sg::elimination_complexity(snapshot.pattern, order);
+Whole whole(const solve::Isam2& isam) {
+  solve::Snapshot snapshot;
+  solve::take_snapshot(isam, false, snapshot);
+  graph::Order order = order::elimination_order("colamd", snapshot.pattern);
+  const elim::Wide ec = elim::elimination_complexity(snapshot.pattern, order);
   return {std::move(order), ec};
 }
 
-double elimination_seconds(const sg::Isam2& isam, const sg::Order& order) {
-  sg::Snapshot snapshot;
-  sg::take_snapshot(isam, true, snapshot);
-  sg::Elimination elimination = sg::plan_elimination(snapshot.system, order);
+double elimination_seconds(const solve::Isam2& isam, const graph::Order& order) {
+  solve::Snapshot snapshot;
+  solve::take_snapshot(isam, true, snapshot);
+  solve::Elimination elimination = solve::plan_elimination(snapshot.system, order);
   const double start = processor_seconds();
-  sg::eliminate(elimination, snapshot.system);
+  solve::eliminate(elimination, snapshot.system);
   return processor_seconds() - start;
 }
 
 struct Row {
-  const sg::Isam2& isam;
-  sg::Index step;
-  sg::Index factors;
-  const sg::Isam2Report& report;
+  const solve::Isam2& isam;
+  Index step;
+  Index factors;
+  const solve::Isam2Report& report;
   double seconds;
   std::optional<Whole> whole_ = {};
 
   const Whole& whole() {
-    return sg::once(whole_, [&] { return ::whole(isam); });
+    return cmd::once(whole_, [&] { return ::whole(isam); });
   }
 };
 
-const std::vector<sg::Column<Row>> columns{
+const std::vector<cmd::Column<Row>> columns{
     {"step", "From 0", &Row::step},
     {"variables", "That are there, new ones included", [](Row& row) { return row.isam.variables; }},
     {"factors", "That are there, new ones included", &Row::factors},
@@ -84,13 +86,13 @@ const std::vector<sg::Column<Row>> columns{
     {"relinearized", "Variables whose linearization point moved",
      [](Row& row) { return row.report.relinearized; }},
     {"cliques", "Of the Bayes tree", [](Row& row) { return row.isam.tree.count; }},
-    {"chi2", "Of the factors, at the estimate", [](Row& row) { return sg::chi2(row.isam); },
+    {"chi2", "Of the factors, at the estimate", [](Row& row) { return solve::chi2(row.isam); },
      "--chi2"},
     {"batch_s", "Processor seconds to eliminate the whole system",
      [](Row& row) { return elimination_seconds(row.isam, row.whole().order); }, "--batch"},
 };
 
-void add_thresholds(CLI::App& app, sg::Isam2Options& isam) {
+void add_thresholds(CLI::App& app, solve::Isam2Options& isam) {
   app.add_option("--relinearize-threshold", isam.relinearize_threshold,
                  "Relinearize vertices X or more away (default: 0.1)")
       ->option_text("X")
@@ -105,34 +107,34 @@ void add_thresholds(CLI::App& app, sg::Isam2Options& isam) {
       ->check(CLI::NonNegativeNumber);
 }
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_input(command, options.input);
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_input(command, options.input);
   auto& app = command.app;
   app.add_option("-m,--method,--ordering", options.isam.ordering,
                  "Ordering to eliminate anew by (default: colamd)")
       ->option_text("METHOD");
   add_thresholds(app, options.isam);
-  sg::add_entry(app, options.min_obs, "A landmark");
+  cmd::add_entry(app, options.min_obs, "A landmark");
   app.add_option_function<std::string>(
          "--init", [&options](const std::string& from) { options.from_file = from == "file"; },
          "Start from the edges (default) or the file")
       ->option_text("edges|file")
       ->check(CLI::IsMember({"edges", "file"}));
-  sg::add_every(app, options.every, "A row for");
+  cmd::add_every(app, options.every, "A row for");
   app.add_flag("--colamd", options.colamd, "Add ec_colamd: the EC of the whole, by COLAMD");
   app.add_flag("--chi2", options.chi2, "Add chi2, at the estimate");
   app.add_flag("--batch", options.batch, "Add batch_s: time the elimination of the whole");
-  sg::add_output(app, options.output, "Write the final graph to FILE");
-  sg::add_table(command, options.table, columns);
+  cmd::add_output(app, options.output, "Write the final graph to FILE");
+  cmd::add_table(command, options.table, columns);
 }
 
-void replay(const sg::Command& command, const Options& options, sg::Isam2Replay& replay,
-            sg::Table<Row>& table) {
-  sg::Progress progress(command.name, "step", replay.steps.steps);
-  for (sg::Index k = 0; k < replay.steps.steps; ++k) {
+void replay(const cmd::Command& command, const Options& options, solve::Isam2Replay& replay,
+            cmd::Table<Row>& table) {
+  cmd::Progress progress(command.name, "step", replay.steps.steps);
+  for (Index k = 0; k < replay.steps.steps; ++k) {
     progress.update(k);
     const double start = processor_seconds();
-    const sg::Isam2Report report = sg::replay_step(replay, k);
+    const solve::Isam2Report report = solve::replay_step(replay, k);
     const double seconds = processor_seconds() - start;
     if (k % options.every != 0 && k + 1 < replay.steps.steps) continue;
     table.row({replay.isam, k, replay.edges.begin[k + 1], report, seconds});
@@ -140,46 +142,46 @@ void replay(const sg::Command& command, const Options& options, sg::Isam2Replay&
 }
 
 // Vertices that never entered stay where they were.
-void write_graph(const sg::Command& command, const Options& options, const sg::Problem& problem,
-                 const sg::Isam2Replay& replay) {
-  sg::Values values = sg::start_values(problem);
+void write_graph(const cmd::Command& command, const Options& options,
+                 const factor::Problem& problem, const solve::Isam2Replay& replay) {
+  factor::Values values = factor::start_values(problem);
   std::vector<bool> moved(problem.graph->vertices(), false);
-  for (sg::Index v = 0; v < problem.graph->vertices(); ++v) {
-    const sg::Index j = problem.variables.vertex_variable[v];
+  for (Index v = 0; v < problem.graph->vertices(); ++v) {
+    const Index j = problem.variables.vertex_variable[v];
     if (!replay.placed[v] || j < 0) continue;
     moved[v] = j != problem.held;
     std::copy(replay.isam.estimate.begin() + problem.value_at[v],
               replay.isam.estimate.begin() + problem.value_at[v + 1],
               values.begin() + problem.value_at[v]);
   }
-  sg::write_filtered(command, options.output, *problem.graph,
-                     sg::estimate_changes(problem, values, moved));
+  cmd::write_filtered(command, options.output, *problem.graph,
+                      cmd::estimate_changes(problem, values, moved));
 }
 
 // A replay needs its gauge from the first step on; what holds the whole graph may come later.
-void hold_at_first(const sg::Command& command, sg::Problem& problem) {
-  if (problem.held >= 0 || sg::holds_first_pose(problem, sg::start_values(problem))) return;
-  sg::hold_first_pose(problem);
-  sg::warn(command,
-           "the first pose is held, since nothing holds it in the first step; sg-solve lets go of "
-           "it, since "
-           "later edges hold the whole");
+void hold_at_first(const cmd::Command& command, factor::Problem& problem) {
+  if (problem.held >= 0 || factor::holds_first_pose(problem, factor::start_values(problem))) return;
+  factor::hold_first_pose(problem);
+  cmd::warn(command,
+            "the first pose is held, since nothing holds it in the first step; sg-solve lets go of "
+            "it, since "
+            "later edges hold the whole");
 }
 
-void run(const sg::Command& command, const Options& options) {
-  sg::kernels();  // a wrong call is told before a long read
-  sg::Output output("");
-  const sg::Given given{
+void run(const cmd::Command& command, const Options& options) {
+  solve::kernels();  // a wrong call is told before a long read
+  cmd::Output output("");
+  const cmd::Given given{
       {"--colamd", options.colamd}, {"--chi2", options.chi2}, {"--batch", options.batch}};
-  sg::Table table(options.table, columns, given, output);
-  const sg::Graph graph = sg::read(options.input);
-  sg::Problem problem = sg::make_problem(graph);
+  cmd::Table table(options.table, columns, given, output);
+  const Graph graph = cmd::read(options.input);
+  factor::Problem problem = factor::make_problem(graph);
   hold_at_first(command, problem);
-  sg::Isam2Replay state =
-      sg::make_isam2_replay(problem, options.isam, options.min_obs, options.from_file);
+  solve::Isam2Replay state =
+      solve::make_isam2_replay(problem, options.isam, options.min_obs, options.from_file);
   try {
     replay(command, options, state, table);
-  } catch (const sg::Error&) {
+  } catch (const text::Error&) {
     output.commit();  // the steps before are valid
     throw;
   }
@@ -190,7 +192,7 @@ void run(const sg::Command& command, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(
-      sg::Command("sg-isam2", "Replay a graph step by step through iSAM2; a row a step."), argc,
+  return cmd::run(
+      cmd::Command("sg-isam2", "Replay a graph step by step through iSAM2; a row a step."), argc,
       argv, add_options, run);
 }

@@ -5,21 +5,23 @@
 #include "cmd/common/prune_options.h"
 #include "lib/prune/keyframes.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::PruneOptions pruning;
-  sg::KeyframeRule rule;
+  cmd::PruneOptions pruning;
+  prune::KeyframeRule rule;
   double degrees = 0;
   std::string loops = "move";
 };
 
-void add_options(sg::Command& command, Options& options) {
+void add_options(cmd::Command& command, Options& options) {
   const auto positive = CLI::PositiveNumber.description("");
-  sg::add_input(command, options.pruning.input);
+  cmd::add_input(command, options.pruning.input);
   command.app.add_option("-r,--rate", options.rule.rate, "Every R-th pose stays")
       ->type_name("R")
-      ->check(sg::at_least_one());
+      ->check(cmd::at_least_one());
   command.app
       .add_option("--dist", options.rule.distance, "A keyframe every D metres travelled, or")
       ->type_name("D")
@@ -32,47 +34,47 @@ void add_options(sg::Command& command, Options& options) {
           "--loops", options.loops,
           "Loop closures of dropped poses: move to the\nnearest keyframe (default), or drop")
       ->option_text("FATE")
-      ->check(sg::one_of({"move", "drop"}));
-  sg::add_pruned_output(command, options.pruning);
+      ->check(cmd::one_of({"move", "drop"}));
+  cmd::add_pruned_output(command, options.pruning);
 }
 
-void report(const sg::Command& command, const sg::Keyframing& keyframing) {
+void report(const cmd::Command& command, const prune::Keyframing& keyframing) {
   if (keyframing.dropped_priors > 0) {
-    sg::warn(command, "left out " + std::to_string(keyframing.dropped_priors) +
-                          " unary edges (priors) of dropped poses");
+    cmd::warn(command, "left out " + std::to_string(keyframing.dropped_priors) +
+                           " unary edges (priors) of dropped poses");
   }
   if (command.verbose && keyframing.collapsed_loops > 0) {
-    sg::warn(command, "left out " + std::to_string(keyframing.collapsed_loops) +
-                          " loop closures whose ends have the same nearest keyframe");
+    cmd::warn(command, "left out " + std::to_string(keyframing.collapsed_loops) +
+                           " loop closures whose ends have the same nearest keyframe");
   }
 }
 
-void prune(const sg::Command& command, const Options& options) {
-  sg::KeyframeRule rule = options.rule;
+void run(const cmd::Command& command, const Options& options) {
+  prune::KeyframeRule rule = options.rule;
   rule.angle = options.degrees * std::numbers::pi / 180;
   const bool travelled = rule.distance > 0 || rule.angle > 0;
   if ((rule.rate > 0) == travelled)
-    throw sg::usage_error("how many keyframes? Give -r, or --dist and --angle or one of them");
-  const sg::Graph graph = sg::read(options.pruning.input);
-  const sg::PoseIndex poses = sg::pose_index(graph);
-  const sg::Lists<> odometry = sg::odometry_steps(graph, poses);
-  const auto keyframes = sg::choose_keyframes(graph, poses, odometry, rule);
-  sg::Keyframing keyframing =
-      sg::keyframing(graph, poses, odometry, keyframes, options.loops == "move");
+    throw text::usage_error("how many keyframes? Give -r, or --dist and --angle or one of them");
+  const Graph graph = cmd::read(options.pruning.input);
+  const graph::PoseIndex poses = graph::pose_index(graph);
+  const graph::Lists<> odometry = prune::odometry_steps(graph, poses);
+  const auto keyframes = prune::choose_keyframes(graph, poses, odometry, rule);
+  prune::Keyframing keyframing =
+      prune::keyframing(graph, poses, odometry, keyframes, options.loops == "move");
   report(command, keyframing);
-  sg::Changes changes =
-      sg::pruned(command, graph, poses, options.pruning.min_obs, std::move(keyframing.removal));
+  formats::Changes changes =
+      cmd::pruned(command, graph, poses, options.pruning.min_obs, std::move(keyframing.removal));
   changes.late_edge = keyframing.late;
-  changes.edge_line = [&](sg::Index e) -> std::optional<std::string> {
+  changes.edge_line = [&](Index e) -> std::optional<std::string> {
     if (!keyframing.rewritten[e]) return std::nullopt;
-    return sg::rewritten_line(keyframing, e);
+    return prune::rewritten_line(keyframing, e);
   };
-  sg::write_filtered(command, options.pruning.output, graph, std::move(changes));
+  cmd::write_filtered(command, options.pruning.output, graph, std::move(changes));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(sg::Command("sg-kf", "Keep keyframes; compose the odometry between them."), argc,
-                 argv, add_options, prune);
+  return cmd::run(cmd::Command("sg-kf", "Keep keyframes; compose the odometry between them."), argc,
+                  argv, add_options, run);
 }

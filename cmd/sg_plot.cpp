@@ -10,31 +10,33 @@
 #include "lib/order/order.h"
 #include "lib/text/error.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
   std::string what;
-  sg::Input input;
-  sg::OutputOptions output;
-  sg::MethodOptions method;
+  cmd::Input input;
+  cmd::OutputOptions output;
+  cmd::MethodOptions method;
   std::string plane = "xy";
   bool cost = false;
-  sg::PageSize size{600, 600};
+  plot::PageSize size{600, 600};
 };
 
-void add_options(sg::Command& command, Options& options) {
+void add_options(cmd::Command& command, Options& options) {
   auto& app = command.app;
   app.add_option("WHAT", options.what,
                  "map: where everything is\npattern: R and its fill\ntree: the Bayes tree")
       ->required()
-      ->check(sg::one_of({"map", "pattern", "tree"}))
+      ->check(cmd::one_of({"map", "pattern", "tree"}))
       ->option_text(" ");
-  sg::add_input(command, options.input);
-  sg::add_method(command, options.method);
+  cmd::add_input(command, options.input);
+  cmd::add_method(command, options.method);
   app.add_flag("--cost", options.cost, "Of a map: colour what costs by its share of EC")
       ->option_text(" ");
   app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
-      ->check(sg::one_of({"xy", "xz", "yz"}))
+      ->check(cmd::one_of({"xy", "xz", "yz"}))
       ->option_text("PLANE");
   app.add_option("--width", options.size.width,
                  "Of the picture, in points or pixels (default: 600)")
@@ -43,32 +45,33 @@ void add_options(sg::Command& command, Options& options) {
   app.add_option("--height", options.size.height, "The same (default: 600)")
       ->check(CLI::Range(64, 20000).description(""))
       ->option_text("N");
-  sg::add_output(command, options.output);
+  cmd::add_output(command, options.output);
 }
 
-void draw(cairo_t* page, const Options& options, const sg::Graph& graph) {
+void draw(cairo_t* page, const Options& options, const Graph& graph) {
   const bool map = options.what == "map";
   const std::array axes{options.plane[0] - 'x', options.plane[1] - 'x'};
-  if (map && !options.cost) return sg::draw_map(page, options.size, graph, axes);
-  const sg::GraphPattern variables = sg::graph_pattern(graph);
-  const auto [name, order] = sg::named_order(options.method, graph, variables);
+  if (map && !options.cost) return plot::draw_map(page, options.size, graph, axes);
+  const graph::GraphPattern variables = graph::graph_pattern(graph);
+  const auto [name, order] = cmd::named_order(options.method, graph, variables);
   if (map) {
-    return sg::draw_cost_map(page, options.size, graph, axes, sg::costs(variables, order, name));
+    return plot::draw_cost_map(page, options.size, graph, axes,
+                               plot::costs(variables, order, name));
   }
   if (options.what == "pattern") {
-    return sg::draw_pattern(page, options.size, variables.pattern, order);
+    return plot::draw_pattern(page, options.size, variables.pattern, order);
   }
-  sg::draw_tree(page, options.size, sg::symbolic(variables.pattern, order));
+  plot::draw_tree(page, options.size, elim::symbolic(variables.pattern, order));
 }
 
-void plot(const sg::Command& /*command*/, const Options& options) {
-  const sg::PictureFormat format = sg::picture_format(options.output.path);
-  if (options.cost && options.what != "map") throw sg::usage_error("--cost belongs to map");
-  sg::check(options.method);
-  const sg::Graph graph = sg::read(options.input);
-  const std::string bytes = sg::picture(format, options.size.width, options.size.height,
-                                        [&](cairo_t* page) { draw(page, options, graph); });
-  sg::Output output(options.output.path);
+void run(const cmd::Command& /*command*/, const Options& options) {
+  const plot::PictureFormat format = plot::picture_format(options.output.path);
+  if (options.cost && options.what != "map") throw text::usage_error("--cost belongs to map");
+  cmd::check(options.method);
+  const Graph graph = cmd::read(options.input);
+  const std::string bytes = plot::picture(format, options.size.width, options.size.height,
+                                          [&](cairo_t* page) { draw(page, options, graph); });
+  cmd::Output output(options.output.path);
   output.write(bytes);
   output.commit();
 }
@@ -76,7 +79,7 @@ void plot(const sg::Command& /*command*/, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(
-      sg::Command("sg-plot", "Draw a graph, its factor, or its Bayes tree (svg, png, pdf)."), argc,
-      argv, add_options, plot);
+  return cmd::run(
+      cmd::Command("sg-plot", "Draw a graph, its factor, or its Bayes tree (svg, png, pdf)."), argc,
+      argv, add_options, run);
 }

@@ -6,12 +6,14 @@
 #include "lib/elim/predict.h"
 #include "lib/text/error.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::Input input{"", {}};
-  sg::OutputOptions output;
-  sg::TableOptions table;
+  cmd::Input input{"", {}};
+  cmd::OutputOptions output;
+  cmd::TableOptions table;
   std::optional<std::int64_t> poses;
   std::int64_t landmarks = 0;
   int pose_dim = 6;
@@ -22,10 +24,10 @@ struct Options {
 
 struct Row {
   double r;
-  std::optional<sg::Sizes> sizes;
+  std::optional<elim::Sizes> sizes;
   std::optional<double> ec;
 
-  std::optional<double> by(double (*formula)(const sg::Sizes&, double)) const {
+  std::optional<double> by(double (*formula)(const elim::Sizes&, double)) const {
     return sizes ? std::optional(formula(*sizes, r)) : std::nullopt;
   }
   std::optional<double> scaled(double times, double divisor) const {
@@ -33,18 +35,18 @@ struct Row {
   }
 };
 
-double full(const sg::Sizes& sizes, double /*r*/) {
-  return sg::predict_full(sizes);
+double full(const elim::Sizes& sizes, double /*r*/) {
+  return elim::predict_full(sizes);
 }
 
-const std::vector<sg::Column<Row>> columns{
+const std::vector<cmd::Column<Row>> columns{
     {"r", "The rate: one pose, or one observation, in r is kept", &Row::r},
     {"full", "(L + X) X^2: without pruning", [](Row& row) { return row.by(full); },
      "a graph or counts"},
-    {"kf", "(L + X/r) (X/r)^2: keyframes", [](Row& row) { return row.by(sg::predict_keyframes); },
+    {"kf", "(L + X/r) (X/r)^2: keyframes", [](Row& row) { return row.by(elim::predict_keyframes); },
      "a graph or counts"},
     {"dec", "(L + 9 X) (X/r)^2: decimation",
-     [](Row& row) { return row.by(sg::predict_decimation); }, "a graph or counts"},
+     [](Row& row) { return row.by(elim::predict_decimation); }, "a graph or counts"},
     {"ec", "The given one", &Row::ec, "--ec"},
     {"ec_kf", "By 1/r^3, what keyframes come close to",
      [](Row& row) { return row.scaled(1, row.r * row.r * row.r); }, "--ec"},
@@ -54,8 +56,8 @@ const std::vector<sg::Column<Row>> columns{
      "--ec"},
 };
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_input(command, options.input);
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_input(command, options.input);
   auto& app = command.app;
   app.add_option("-r,--rate", options.rates, "Rates of pruning, 1 or more (default: 1)")
       ->option_text("R,...")
@@ -80,31 +82,31 @@ void add_options(sg::Command& command, Options& options) {
   app.add_option("--ec", options.ec, "EC of the unpruned graph, to be scaled")
       ->option_text("EC")
       ->check(CLI::PositiveNumber);
-  sg::add_output(command, options.output);
-  sg::add_table(command, options.table, columns);
+  cmd::add_output(command, options.output);
+  cmd::add_table(command, options.table, columns);
 }
 
-sg::Sizes sizes_of(const Options& options) {
+elim::Sizes sizes_of(const Options& options) {
   if (options.poses) {
     return {static_cast<double>(*options.poses) * options.pose_dim,
             static_cast<double>(options.landmarks) * options.landmark_dim};
   }
-  sg::Input input = options.input;
+  cmd::Input input = options.input;
   if (input.path.empty()) input.path = "-";
-  const sg::Graph graph = sg::read(input);
-  const sg::Sizes sizes = sg::sizes(graph);
-  if (sizes.poses == 0) throw sg::input_error(graph.file, 0, "no pose in it to predict from");
+  const Graph graph = cmd::read(input);
+  const elim::Sizes sizes = elim::sizes(graph);
+  if (sizes.poses == 0) throw text::input_error(graph.file, 0, "no pose in it to predict from");
   return sizes;
 }
 
-void predict(const sg::Command& /*command*/, const Options& options) {
+void predict(const cmd::Command& /*command*/, const Options& options) {
   for (const double r : options.rates) {
-    if (!(r >= 1) || std::isinf(r)) throw sg::usage_error("-r wants a rate of 1 or more");
+    if (!(r >= 1) || std::isinf(r)) throw text::usage_error("-r wants a rate of 1 or more");
   }
   const bool sized = options.poses || !options.ec || !options.input.path.empty();
-  sg::Output output(options.output.path);
-  sg::Table table(options.table, columns,
-                  {{"a graph or counts", sized}, {"--ec", options.ec.has_value()}}, output);
+  cmd::Output output(options.output.path);
+  cmd::Table table(options.table, columns,
+                   {{"a graph or counts", sized}, {"--ec", options.ec.has_value()}}, output);
   const auto sizes = sized ? std::optional(sizes_of(options)) : std::nullopt;
   for (const double r : options.rates) table.row({r, sizes, options.ec});
   output.commit();
@@ -113,7 +115,7 @@ void predict(const sg::Command& /*command*/, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(
-      sg::Command("sg-predict", "Predict what pruning saves, by the paper's closed forms."), argc,
+  return cmd::run(
+      cmd::Command("sg-predict", "Predict what pruning saves, by the paper's closed forms."), argc,
       argv, add_options, predict);
 }

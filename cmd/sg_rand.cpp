@@ -3,19 +3,21 @@
 #include "cmd/common/prune_options.h"
 #include "lib/prune/sample.h"
 
+using namespace sg;
+
 int main(int argc, char** argv) {
-  sg::Command command("sg-rand", "Prune observations or loop closures at random.");
-  sg::PruneOptions options;
-  sg::Amount amount;
+  cmd::Command command("sg-rand", "Prune observations or loop closures at random.");
+  cmd::PruneOptions options;
+  cmd::Amount amount;
   std::uint64_t seed = 1;
-  sg::add_input(command, options.input);
-  sg::add_amount(command, amount);
-  sg::add_seed(command.app, seed, "Seed of the choice");
-  sg::add_pruning(command, options);
-  return sg::run(command, argc, argv, [&] {
-    sg::prune(command, options, [&](const sg::Prunable& from) {
-      const auto count = sg::kept_count(amount, from, options.input.options);
-      return sg::sample(from.candidates.size(), count, seed);
+  cmd::add_input(command, options.input);
+  cmd::add_amount(command, amount);
+  cmd::add_seed(command.app, seed, "Seed of the choice");
+  cmd::add_pruning(command, options);
+  return cmd::run(command, argc, argv, [&] {
+    cmd::prune(command, options, [&](const cmd::Prunable& from) {
+      const auto count = cmd::kept_count(amount, from, options.input.options);
+      return prune::sample(from.candidates.size(), count, seed);
     });
   });
 }

@@ -14,13 +14,15 @@
 #include "lib/score/trajectory.h"
 #include "lib/trees/connectivity.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::Inputs inputs;
-  sg::OutputOptions output;
-  sg::TableOptions table;
-  sg::MethodOptions method;
+  cmd::Inputs inputs;
+  cmd::OutputOptions output;
+  cmd::TableOptions table;
+  cmd::MethodOptions method;
   std::string weights = "unit";
   std::string reference;
   std::string align = "se";
@@ -28,42 +30,43 @@ struct Options {
 
 struct Row {
   const Options& options;
-  const std::optional<sg::Trajectory>& reference;
+  const std::optional<score::Trajectory>& reference;
   const std::string& file;
-  const sg::Graph& graph;
-  sg::TreeWeights weights;
-  sg::GraphPattern variables;
-  sg::Method method;
-  std::optional<sg::Order> order_ = {};
-  std::optional<sg::TrajectoryError> error_ = {};
+  const Graph& graph;
+  trees::TreeWeights weights;
+  graph::GraphPattern variables;
+  cmd::Method method;
+  std::optional<graph::Order> order_ = {};
+  std::optional<score::TrajectoryError> error_ = {};
 
-  const sg::Order& order() {
-    return sg::once(order_, [&] { return sg::order_by(method, options.method, graph, variables); });
+  const graph::Order& order() {
+    return cmd::once(order_,
+                     [&] { return cmd::order_by(method, options.method, graph, variables); });
   }
-  sg::Wide ec() { return sg::elimination_complexity(variables.pattern, order()); }
+  elim::Wide ec() { return elim::elimination_complexity(variables.pattern, order()); }
   double log_det() {
-    const sg::Problem problem = sg::make_problem(graph);
-    return sg::log_det_information(problem, sg::start_values(problem), order());
+    const factor::Problem problem = factor::make_problem(graph);
+    return score::log_det_information(problem, factor::start_values(problem), order());
   }
-  const sg::TrajectoryError& error() {
-    return sg::once(error_, [&] {
-      return sg::trajectory_error(sg::trajectory(graph), reference.value(),
-                                  sg::alignment(options.align).value());
+  const score::TrajectoryError& error() {
+    return cmd::once(error_, [&] {
+      return score::trajectory_error(score::trajectory(graph), reference.value(),
+                                     score::alignment(options.align).value());
     });
   }
 };
 
-const std::vector<sg::Column<Row>> columns{
+const std::vector<cmd::Column<Row>> columns{
     {"file", "The file", [](Row& row) { return row.file; }, "several files"},
     {"vertices", "How many there are", [](Row& row) { return row.graph.vertices(); }},
     {"edges", "How many there are", [](Row& row) { return row.graph.edges(); }},
     {"log_trees", "Logarithm of the weighted number of spanning trees",
-     [](Row& row) { return sg::log_trees(row.graph, row.weights); }},
+     [](Row& row) { return trees::log_trees(row.graph, row.weights); }},
     {"lambda2", "Algebraic connectivity",
-     [](Row& row) { return sg::algebraic_connectivity(row.graph, row.weights); }},
+     [](Row& row) { return trees::algebraic_connectivity(row.graph, row.weights); }},
     {"dopt", "Log determinant of the information at the file's estimate", &Row::log_det},
     {"avg_obs", "Mean number of observations a landmark",
-     [](Row& row) { return sg::average_observations(row.graph); }},
+     [](Row& row) { return graph::average_observations(row.graph); }},
     {"matched", "Poses that graph and reference share",
      [](Row& row) { return row.error().matched; }, "--reference"},
     {"ate_rmse", "Absolute trajectory error, its root mean square",
@@ -74,9 +77,9 @@ const std::vector<sg::Column<Row>> columns{
     {"ec", "Elimination complexity", &Row::ec},
 };
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_inputs(command, options.inputs);
-  sg::add_weights(command.app, options.weights, "Of log_trees and lambda2");
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_inputs(command, options.inputs);
+  cmd::add_weights(command.app, options.weights, "Of log_trees and lambda2");
   command.app
       .add_option("--reference", options.reference, "A graph or a TUM trajectory, for ATE and RPE")
       ->option_text("FILE");
@@ -84,20 +87,20 @@ void add_options(sg::Command& command, Options& options) {
       .add_option("--align", options.align,
                   "Move onto it: se (rigidly; the default), sim (and\nscale), none")
       ->option_text("HOW")
-      ->check(sg::one_of({"se", "sim", "none"}));
-  sg::add_method(command, options.method);
-  sg::add_output(command, options.output);
-  sg::add_table(command, options.table, columns);
+      ->check(cmd::one_of({"se", "sim", "none"}));
+  cmd::add_method(command, options.method);
+  cmd::add_output(command, options.output);
+  cmd::add_table(command, options.table, columns);
 }
 
-sg::Trajectory read_trajectory(const std::string& path, const sg::ReadOptions& options) {
-  const sg::Text text = sg::read_text(path);
-  if (!sg::looks_like_tum(text.view))
-    return sg::trajectory(sg::read_graph_text(text, path, options));
-  sg::Trajectory result;
-  for (const auto& [id, n] : sg::read_tum(text.view, path)) {
+score::Trajectory read_trajectory(const std::string& path, const formats::ReadOptions& options) {
+  const text::Text text = text::read_text(path);
+  if (!formats::looks_like_tum(text.view))
+    return score::trajectory(formats::read_graph_text(text, path, options));
+  score::Trajectory result;
+  for (const auto& [id, n] : formats::read_tum(text.view, path)) {
     result.id.push_back(id);
-    result.pose.push_back(sg::normalized(sg::se3(n.data())));
+    result.pose.push_back(geometry::normalized(geometry::se3(n.data())));
   }
   return result;
 }
@@ -108,25 +111,25 @@ void check_columns(const Options& options) {
     const auto& asked = options.table.columns;
     const bool wanted = std::find(asked.begin(), asked.end(), column.name) != asked.end();
     if (wanted && column.needs == "--reference" && options.reference.empty())
-      throw sg::usage_error("column '" + column.name + "' wants a --reference");
+      throw text::usage_error("column '" + column.name + "' wants a --reference");
   }
 }
 
-void score(const sg::Command& /*command*/, const Options& options) {
-  sg::check(options.method);
+void run(const cmd::Command& /*command*/, const Options& options) {
+  cmd::check(options.method);
   check_columns(options);
-  const sg::Given given{{"several files", options.inputs.paths.size() > 1},
-                        {"--reference", !options.reference.empty()}};
-  sg::Output output(options.output.path);
-  sg::Table table(options.table, columns, given, output);
-  std::optional<sg::Trajectory> reference;
+  const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
+                         {"--reference", !options.reference.empty()}};
+  cmd::Output output(options.output.path);
+  cmd::Table table(options.table, columns, given, output);
+  std::optional<score::Trajectory> reference;
   if (!options.reference.empty())
     reference = read_trajectory(options.reference, options.inputs.options);
-  const sg::TreeWeights weights = sg::tree_weights(options.weights).value();
+  const trees::TreeWeights weights = trees::tree_weights(options.weights).value();
   for (const auto& path : options.inputs.paths) {
-    const sg::Graph graph = sg::read(options.inputs, path);
-    const sg::Method method = sg::methods(options.method, graph).front();
-    table.row({options, reference, path, graph, weights, sg::graph_pattern(graph), method});
+    const Graph graph = cmd::read(options.inputs, path);
+    const cmd::Method method = cmd::methods(options.method, graph).front();
+    table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
   }
   output.commit();
 }
@@ -134,6 +137,6 @@ void score(const sg::Command& /*command*/, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(sg::Command("sg-score", "Score what a graph is worth, and what it costs."), argc,
-                 argv, add_options, score);
+  return cmd::run(cmd::Command("sg-score", "Score what a graph is worth, and what it costs."), argc,
+                  argv, add_options, run);
 }

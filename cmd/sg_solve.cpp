@@ -20,6 +20,8 @@
 #include "lib/solve/front.h"
 #include "lib/text/words.h"
 
+using namespace sg;
+
 namespace {
 
 // How long elimination takes, as --time measures it.
@@ -27,15 +29,15 @@ struct Timing {
   std::string order;
   std::string backend;
   int threads;
-  sg::Index variables;
-  sg::Index factors;
-  sg::Wide ec;
+  Index variables;
+  Index factors;
+  elim::Wide ec;
   int runs;
   double plan_s;
   double median_s;
 };
 
-const std::vector<sg::Column<Timing>> time_columns{
+const std::vector<cmd::Column<Timing>> time_columns{
     {"order", "The ordering", &Timing::order},
     {"backend", "What eliminates", &Timing::backend},
     {"threads", "How many it may use", &Timing::threads},
@@ -46,19 +48,19 @@ const std::vector<sg::Column<Timing>> time_columns{
     {"plan_s", "Seconds once spent on the structure", &Timing::plan_s},
     {"median_s", "Median of the elimination times, in seconds", &Timing::median_s},
     {"s_per_ec", "The same for a unit of elimination complexity",
-     [](Timing& timing) { return timing.median_s / sg::to_double(timing.ec); }},
+     [](Timing& timing) { return timing.median_s / elim::to_double(timing.ec); }},
 };
 
 struct Options {
-  sg::Input input;
-  sg::OutputOptions output;
-  sg::TableOptions table;
+  cmd::Input input;
+  cmd::OutputOptions output;
+  cmd::TableOptions table;
   bool gauss_newton = false;
   std::optional<int> iterations;  // as many, whether that is enough or not
   double tolerance = 1e-9;
   std::string kernel;
-  sg::MethodOptions method;
-  std::string backend{sg::backends().front().name};
+  cmd::MethodOptions method;
+  std::string backend{solve::backends().front().name};
   int threads = tbb::info::default_concurrency();
   int runs = 0;
   bool chi2 = false;
@@ -68,8 +70,8 @@ struct Options {
 
 constexpr int most_iterations = 100;
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_input(command, options.input);
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_input(command, options.input);
   auto& app = command.app;
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
   app.add_option(
@@ -78,13 +80,13 @@ void add_options(sg::Command& command, Options& options) {
       ->option_text("N")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--tolerance", options.tolerance,
-                 "Stop when a step changes chi-square by\nless than this share (default: 1e-9)")
+                 "Least relative change of chi-square (default: 1e-9)")
       ->option_text("X")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--kernel", options.kernel, "Robust kernel huber or cauchy, of width W")
       ->option_text("NAME:W");
-  sg::add_method(command, options.method);
-  app.add_option("--backend", options.backend, "Eliminate by " + sg::backend_names())
+  cmd::add_method(command, options.method);
+  app.add_option("--backend", options.backend, "Eliminate by " + solve::backend_names())
       ->option_text("NAME");
   app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
       ->option_text("N")
@@ -95,36 +97,36 @@ void add_options(sg::Command& command, Options& options) {
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
       ->check(CLI::PositiveNumber);
-  sg::add_filter_output(command, options.output);
-  sg::add_table(command, options.table, time_columns);
+  cmd::add_filter_output(command, options.output);
+  cmd::add_table(command, options.table, time_columns);
 }
 
-sg::Kernel parse_kernel(const std::string& text) {
+factor::Kernel parse_kernel(const std::string& text) {
   if (text.empty()) return {};
   const auto colon = text.find(':');
   const std::string name = text.substr(0, colon);
   const auto width =
-      sg::parse<double>(colon == text.npos ? "" : std::string_view(text).substr(colon + 1));
+      text::parse<double>(colon == text.npos ? "" : std::string_view(text).substr(colon + 1));
   if (width && *width > 0) {
-    if (name == "huber") return {sg::KernelShape::huber, *width};
-    if (name == "cauchy") return {sg::KernelShape::cauchy, *width};
+    if (name == "huber") return {factor::KernelShape::huber, *width};
+    if (name == "cauchy") return {factor::KernelShape::cauchy, *width};
   }
-  throw sg::usage_error("--kernel wants huber:W or cauchy:W with W above 0, not '" + text + "'");
+  throw text::usage_error("--kernel wants huber:W or cauchy:W with W above 0, not '" + text + "'");
 }
 
-sg::BatchOptions batch_options(const Options& options) {
-  sg::BatchOptions batch;
-  batch.method =
-      options.gauss_newton ? sg::BatchMethod::gauss_newton : sg::BatchMethod::levenberg_marquardt;
+solve::BatchOptions batch_options(const Options& options) {
+  solve::BatchOptions batch;
+  batch.method = options.gauss_newton ? solve::BatchMethod::gauss_newton
+                                      : solve::BatchMethod::levenberg_marquardt;
   batch.iterations = options.iterations.value_or(most_iterations);
   batch.tolerance = options.tolerance;
   batch.kernel = parse_kernel(options.kernel);
   return batch;
 }
 
-sg::NamedOrder named_order(const Options& options, const sg::Graph& graph) {
-  return sg::named_order(options.method, graph,
-                         sg::graph_pattern(graph));  // without the gauge's row
+cmd::NamedOrder named_order(const Options& options, const Graph& graph) {
+  return cmd::named_order(options.method, graph,
+                          graph::graph_pattern(graph));  // without the gauge's row
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -137,40 +139,41 @@ double median(std::vector<double> times) {
   return *middle;
 }
 
-void print_times(const Options& options, const sg::Problem& problem, const sg::Values& values) {
-  sg::Output output(options.output.path);
-  sg::Table table(options.table, time_columns, {}, output);
+void print_times(const Options& options, const factor::Problem& problem,
+                 const factor::Values& values) {
+  cmd::Output output(options.output.path);
+  cmd::Table table(options.table, time_columns, {}, output);
   const auto [label, order] = named_order(options, *problem.graph);
-  const sg::Pattern& pattern = problem.variables.pattern;
-  sg::LinearSystem system = sg::make_linear_system(problem);
-  sg::linearize(problem, values, parse_kernel(options.kernel), system);
+  const graph::Pattern& pattern = problem.variables.pattern;
+  factor::LinearSystem system = factor::make_linear_system(problem);
+  factor::linearize(problem, values, parse_kernel(options.kernel), system);
   const auto start = std::chrono::steady_clock::now();
-  const auto solver = sg::find_backend(options.backend).make(system, order, options.threads);
+  const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
   const double plan = seconds_since(start);
   std::vector<double> times;
   for (int k = 0; k < options.runs; ++k) {
     const auto begin = std::chrono::steady_clock::now();
-    if (!solver.eliminate(system, {})) throw sg::singular_error(problem, values, system);
+    if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
     times.push_back(seconds_since(begin));
   }
   table.row({label, options.backend, options.threads, pattern.variables(), problem.graph->edges(),
-             sg::elimination_complexity(pattern, order), options.runs, plan, median(times)});
+             elim::elimination_complexity(pattern, order), options.runs, plan, median(times)});
   output.commit();
 }
 
-void print_iteration(const sg::Iteration& iteration) {
-  std::cerr << iteration.number << '\t' << sg::format_number(iteration.chi2) << '\t'
-            << sg::format_number(iteration.lambda) << '\t' << sg::format_number(iteration.step)
+void print_iteration(const solve::Iteration& iteration) {
+  std::cerr << iteration.number << '\t' << text::format_number(iteration.chi2) << '\t'
+            << text::format_number(iteration.lambda) << '\t' << text::format_number(iteration.step)
             << '\t' << (iteration.kept ? "yes" : "no") << '\t'
-            << sg::format_number(iteration.linearize_s) << '\t'
-            << sg::format_number(iteration.eliminate_s) << '\n';
+            << text::format_number(iteration.linearize_s) << '\t'
+            << text::format_number(iteration.eliminate_s) << '\n';
 }
 
 // Which vertices' lines an optimization rewrites: all but the constants.
-std::vector<bool> moved(const sg::Problem& problem) {
+std::vector<bool> moved(const factor::Problem& problem) {
   std::vector<bool> result(problem.graph->vertices(), false);
   for (std::size_t j = 0; j < problem.variables.variable_vertex.size(); ++j) {
-    result[problem.variables.variable_vertex[j]] = static_cast<sg::Index>(j) != problem.held;
+    result[problem.variables.variable_vertex[j]] = static_cast<Index>(j) != problem.held;
   }
   return result;
 }
@@ -182,7 +185,7 @@ std::string rounded(double number) {
 }
 
 // How it went, in a line.
-void tell(const sg::Command& command, const sg::BatchResult& result, double seconds) {
+void tell(const cmd::Command& command, const solve::BatchResult& result, double seconds) {
   if (command.quiet || !(command.verbose || ::isatty(STDERR_FILENO) != 0)) return;
   std::cerr << command.name << ": " << (result.converged ? "converged" : "not converged")
             << " after " << result.iterations
@@ -192,67 +195,69 @@ void tell(const sg::Command& command, const sg::BatchResult& result, double seco
 }
 
 // Without an -i of the user's, iterations that do not converge are an error: what they reach is of no use.
-void check_converged(const sg::Command& command, const Options& options,
-                     const sg::BatchResult& result) {
+void check_converged(const cmd::Command& command, const Options& options,
+                     const solve::BatchResult& result) {
   if (result.converged) return;
   const std::string cause = "not converged after " + std::to_string(result.iterations) +
-                            " iterations, chi-square " + sg::format_number(result.chi2);
-  if (options.iterations || options.keep) return sg::warn(command, cause);
-  throw sg::computation_error(
-      cause + ", from " + sg::format_number(result.initial_chi2) +
+                            " iterations, chi-square " + text::format_number(result.chi2);
+  if (options.iterations || options.keep) return cmd::warn(command, cause);
+  throw text::computation_error(
+      cause + ", from " + text::format_number(result.initial_chi2) +
       "; nothing is written (--keep would): try " +
       (options.gauss_newton ? "it without --gn, " : "--gn, ") +
       (options.from_edges ? "the file's start (without --init)" : "--init") +
       ", --kernel cauchy:1, or more iterations (-i N)");
 }
 
-void solve(const sg::Command& command, const Options& options, const sg::Problem& problem,
-           sg::Values values) {
+void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem,
+           factor::Values values) {
   const auto begin = std::chrono::steady_clock::now();
-  const sg::Order order = named_order(options, *problem.graph).order;
-  sg::LinearSystem system = sg::make_linear_system(problem);
-  const auto solver = sg::find_backend(options.backend).make(system, order, options.threads);
-  const sg::BatchOptions batch = batch_options(options);
-  std::optional<sg::Progress> progress(std::in_place, command.name, "iteration", batch.iterations);
-  std::function<void(const sg::Iteration&)> report = [&](const sg::Iteration& iteration) {
+  const graph::Order order = named_order(options, *problem.graph).order;
+  factor::LinearSystem system = factor::make_linear_system(problem);
+  const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
+  const solve::BatchOptions batch = batch_options(options);
+  std::optional<cmd::Progress> progress(std::in_place, command.name, "iteration", batch.iterations);
+  std::function<void(const solve::Iteration&)> report = [&](const solve::Iteration& iteration) {
     progress->update(iteration.number);
   };
   if (command.verbose) {
     std::cerr << "iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n";
-    print_iteration({0, sg::chi2(problem, values, batch.kernel), 0, 0, true, 0, 0});
+    print_iteration({0, factor::chi2(problem, values, batch.kernel), 0, 0, true, 0, 0});
     report = print_iteration;
   }
-  const sg::BatchResult result = sg::optimize(problem, system, solver, batch, values, report);
+  const solve::BatchResult result = solve::optimize(problem, system, solver, batch, values, report);
   progress.reset();
   check_converged(command, options, result);
   if (result.scale_free) {
-    sg::warn(
+    cmd::warn(
         command,
         "nothing fixes the scale: it stays near the start's (FIX a second pose, or add an edge "
         "that measures a length)");
   }
-  sg::write_filtered(command, options.output, *problem.graph,
-                     sg::estimate_changes(problem, values, moved(problem)));
+  cmd::write_filtered(command, options.output, *problem.graph,
+                      cmd::estimate_changes(problem, values, moved(problem)));
   tell(command, result, seconds_since(begin));
 }
 
-void run(const sg::Command& command, const Options& options) {
+void run(const cmd::Command& command, const Options& options) {
   parse_kernel(options.kernel);  // a wrong call is told before a long read
-  if (options.chi2 && options.runs > 0) throw sg::usage_error("--chi2 or --time, not both");
+  if (options.chi2 && options.runs > 0) throw text::usage_error("--chi2 or --time, not both");
   if (options.keep && (options.chi2 || options.runs > 0))
-    throw sg::usage_error("--keep belongs to optimizing, not to --chi2 or --time");
-  sg::find_backend(options.backend);
-  sg::check(options.method);
-  sg::kernels();
+    throw text::usage_error("--keep belongs to optimizing, not to --chi2 or --time");
+  solve::find_backend(options.backend);
+  cmd::check(options.method);
+  solve::kernels();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
-  const sg::Graph graph = sg::read(options.input);
-  const sg::Problem problem = sg::make_problem(graph);
-  sg::Values values = options.from_edges ? sg::initial_values(problem) : sg::start_values(problem);
+  const Graph graph = cmd::read(options.input);
+  const factor::Problem problem = factor::make_problem(graph);
+  factor::Values values =
+      options.from_edges ? factor::initial_values(problem) : factor::start_values(problem);
   if (options.chi2) {
-    sg::Output output(options.output.path);
-    output.write(sg::format_number(sg::finite_chi2(problem, values, parse_kernel(options.kernel))) +
-                 "\n");
+    cmd::Output output(options.output.path);
+    output.write(
+        text::format_number(factor::finite_chi2(problem, values, parse_kernel(options.kernel))) +
+        "\n");
     output.commit();
   } else if (options.runs > 0) {
     print_times(options, problem, values);
@@ -264,6 +269,6 @@ void run(const sg::Command& command, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(sg::Command("sg-solve", "Optimize a graph; time its elimination."), argc, argv,
-                 add_options, run);
+  return cmd::run(cmd::Command("sg-solve", "Optimize a graph; time its elimination."), argc, argv,
+                  add_options, run);
 }

@@ -7,12 +7,14 @@
 #include "lib/prune/tgreedy.h"
 #include "lib/text/words.h"
 
+using namespace sg;
+
 namespace {
 
 struct Options {
-  sg::PruneOptions pruning;
-  sg::TableOptions table;
-  sg::Amount amount;
+  cmd::PruneOptions pruning;
+  cmd::TableOptions table;
+  cmd::Amount amount;
   std::string weights = "unit";
   std::optional<std::string> online;
   bool trace = false;
@@ -20,14 +22,14 @@ struct Options {
 
 // A candidate that is kept.
 struct Row {
-  const sg::Graph& graph;
+  const Graph& graph;
   std::int64_t kept;
-  const sg::Accepted& accepted;
+  const prune::Accepted& accepted;
 
-  sg::Id end(int k) const { return graph.id[graph.edge(accepted.edge)[k]]; }
+  Id end(int k) const { return graph.id[graph.edge(accepted.edge)[k]]; }
 };
 
-const std::vector<sg::Column<Row>> columns{
+const std::vector<cmd::Column<Row>> columns{
     {"kept", "How many are kept by then", &Row::kept},
     {"first", "Id of the edge's first vertex", [](Row& row) { return row.end(0); }},
     {"second", "Id of its second vertex", [](Row& row) { return row.end(1); }},
@@ -37,72 +39,72 @@ const std::vector<sg::Column<Row>> columns{
      [](Row& row) { return row.accepted.criterion; }},
 };
 
-void add_options(sg::Command& command, Options& options) {
-  sg::add_input(command, options.pruning.input);
-  sg::add_amount(command, options.amount);
-  sg::add_weights(command.app, options.weights, "Of edges");
+void add_options(cmd::Command& command, Options& options) {
+  cmd::add_input(command, options.pruning.input);
+  cmd::add_amount(command, options.amount);
+  cmd::add_weights(command.app, options.weights, "Of edges");
   command.app
       .add_option("--online", options.online, "Choose after every N steps (1), of what is seen")
       ->expected(0, 1)
       ->option_text("[N]");
   command.app.add_flag("--trace", options.trace, "Print a row an edge kept, instead of the graph");
-  sg::add_pruning(command, options.pruning);
-  sg::add_table(command, options.table, columns);
+  cmd::add_pruning(command, options.pruning);
+  cmd::add_table(command, options.table, columns);
 }
 
 // N may be left out, and FILE may follow: a word that is no number is FILE.
-std::optional<sg::Index> online_steps(const Options& options, std::string& path) {
+std::optional<Index> online_steps(const Options& options, std::string& path) {
   if (!options.online) return std::nullopt;
   std::string word = *options.online;
-  if (!word.empty() && !sg::parse<double>(word) && path == "-") path = std::exchange(word, "");
+  if (!word.empty() && !text::parse<double>(word) && path == "-") path = std::exchange(word, "");
   if (word.empty()) return 1;
-  if (const std::string cause = sg::at_least_one()(word); !cause.empty())
-    throw sg::usage_error("--online: " + cause);
-  return sg::parse<sg::Index>(word);
+  if (const std::string cause = cmd::at_least_one()(word); !cause.empty())
+    throw text::usage_error("--online: " + cause);
+  return text::parse<Index>(word);
 }
 
-void print_trace(const Options& options, const sg::Graph& graph,
-                 const std::vector<sg::Accepted>& accepted) {
-  sg::Output output("");
-  sg::Table table(options.table, columns, {}, output);
+void print_trace(const Options& options, const Graph& graph,
+                 const std::vector<prune::Accepted>& accepted) {
+  cmd::Output output("");
+  cmd::Table table(options.table, columns, {}, output);
   std::int64_t kept = 0;
-  for (const sg::Accepted& edge : accepted) table.row({graph, ++kept, edge});
+  for (const prune::Accepted& edge : accepted) table.row({graph, ++kept, edge});
   output.commit();
 }
 
-void warn_of_parts(const sg::Command& command, const sg::Graph& graph, const sg::PoseIndex& poses,
-                   const sg::Removal& removal) {
-  const sg::Index parts = sg::pose_parts(graph, poses, removal.edge);
+void warn_of_parts(const cmd::Command& command, const Graph& graph, const graph::PoseIndex& poses,
+                   const prune::Removal& removal) {
+  const Index parts = prune::pose_parts(graph, poses, removal.edge);
   const std::vector<bool> all(graph.edges(), false);
-  if (parts > sg::pose_parts(graph, poses, all)) {
-    sg::warn(command, "the trajectory falls into " + std::to_string(parts) +
-                          " parts: too few candidates are kept to join them");
+  if (parts > prune::pose_parts(graph, poses, all)) {
+    cmd::warn(command, "the trajectory falls into " + std::to_string(parts) +
+                           " parts: too few candidates are kept to join them");
   }
 }
 
-void prune(const sg::Command& command, const Options& options) {
-  sg::PruneOptions pruning = options.pruning;
-  const std::optional<sg::Index> online = online_steps(options, pruning.input.path);
-  const sg::Prunable from = sg::read_prunable(pruning);
+void run(const cmd::Command& command, const Options& options) {
+  cmd::PruneOptions pruning = options.pruning;
+  const std::optional<Index> online = online_steps(options, pruning.input.path);
+  const cmd::Prunable from = cmd::read_prunable(pruning);
   const auto& [graph, poses, kind, candidates] = from;
-  const auto count = sg::kept_count(options.amount, from, options.pruning.input.options);
-  const sg::TreeWeights weights = sg::tree_weights(options.weights).value();
-  const auto accepted = online
-                            ? sg::tgreedy_online(graph, poses, candidates, count, weights, *online)
-                            : sg::tgreedy(graph, candidates, count, weights);
-  sg::Removal removal = sg::nothing_removed(graph);
-  for (const sg::Index e : candidates) removal.edge[e] = true;
-  for (const sg::Accepted& step : accepted) removal.edge[step.edge] = false;
+  const auto count = cmd::kept_count(options.amount, from, options.pruning.input.options);
+  const trees::TreeWeights weights = trees::tree_weights(options.weights).value();
+  const auto accepted =
+      online ? prune::tgreedy_online(graph, poses, candidates, count, weights, *online)
+             : prune::tgreedy(graph, candidates, count, weights);
+  prune::Removal removal = prune::nothing_removed(graph);
+  for (const Index e : candidates) removal.edge[e] = true;
+  for (const prune::Accepted& step : accepted) removal.edge[step.edge] = false;
   warn_of_parts(command, graph, poses, removal);
   if (options.trace) print_trace(options, graph, accepted);
   if (options.trace && options.pruning.output.path.empty()) return;
-  sg::write_pruned(command, options.pruning, from, std::move(removal));
+  cmd::write_pruned(command, options.pruning, from, std::move(removal));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return sg::run(
-      sg::Command("sg-tgreedy", "Keep the edges that add most to the number of spanning trees."),
-      argc, argv, add_options, prune);
+  return cmd::run(
+      cmd::Command("sg-tgreedy", "Keep the edges that add most to the number of spanning trees."),
+      argc, argv, add_options, run);
 }

@@ -11,7 +11,7 @@
 #include "formats/tum.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 Losses nothing(const Graph&) {
@@ -41,7 +41,8 @@ void add_loss(Losses& losses, Offset line, std::string_view what, bool structure
     losses.push_back({line, std::string(what), structure});
   } else {
     ++it->count;
-    if (it->first == implied || (line != implied && line < it->first)) it->first = line;
+    if (it->first == graph::implied || (line != graph::implied && line < it->first))
+      it->first = line;
   }
 }
 
@@ -69,7 +70,7 @@ const WriteFormat& find_write_format(std::string_view name) {
     if (format.name == name) return format;
     known += (known.empty() ? "" : ", ") + std::string(format.name);
   }
-  throw usage_error("unknown format '" + std::string(name) + "'; there are " + known);
+  throw text::usage_error("unknown format '" + std::string(name) + "'; there are " + known);
 }
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -11,7 +11,7 @@
 #include "formats/write.h"
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::formats {
 
 // What a format cannot hold: lines of one kind, by their first.
 struct Loss {
@@ -43,4 +43,4 @@ std::span<const WriteFormat> write_formats();
 // Throws a usage Error that lists the names.
 const WriteFormat& find_write_format(std::string_view name);
 
-}  // namespace sg
+}  // namespace sg::formats

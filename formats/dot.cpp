@@ -4,7 +4,7 @@
 
 #include "lib/graph/replay.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 std::string node(const Graph& graph, Index v) {
@@ -14,16 +14,16 @@ std::string node(const Graph& graph, Index v) {
          (graph.fixed[v] ? ", style=filled" : "") + "];\n";
 }
 
-std::string style(EdgeRole role) {
-  if (role == EdgeRole::odometry) return " [style=bold]";
-  return role == EdgeRole::loop_closure ? " [style=dashed]" : "";
+std::string style(graph::EdgeRole role) {
+  if (role == graph::EdgeRole::odometry) return " [style=bold]";
+  return role == graph::EdgeRole::loop_closure ? " [style=dashed]" : "";
 }
 
-std::string line(const Graph& graph, const PoseIndex& poses, Index e) {
+std::string line(const Graph& graph, const graph::PoseIndex& poses, Index e) {
   const auto ends = graph.edge(e);
   if (ends.size() == 2) {
     return "  " + std::to_string(graph.id[ends[0]]) + " -- " + std::to_string(graph.id[ends[1]]) +
-           style(edge_role(graph, poses, e)) + ";\n";
+           style(graph::edge_role(graph, poses, e)) + ";\n";
   }
   const std::string point = "e" + std::to_string(e);
   std::string text = "  " + point + " [shape=point];\n";
@@ -34,11 +34,11 @@ std::string line(const Graph& graph, const PoseIndex& poses, Index e) {
 }  // namespace
 
 void write_dot(const Graph& graph, const WriteOptions&, Sink& sink) {
-  const PoseIndex poses = pose_index(graph);
+  const graph::PoseIndex poses = graph::pose_index(graph);
   sink.write("graph {\n");
   for (Index v = 0; v < graph.vertices(); ++v) sink.write(node(graph, v));
   for (Index e = 0; e < graph.edges(); ++e) sink.write(line(graph, poses, e));
   sink.write("}\n");
 }
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -1,6 +1,6 @@
 #include "formats/euler.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 Matrix6d scaled(const Matrix6d& information, double rotation) {
@@ -20,22 +20,22 @@ Matrix6d to_euler_information(const Matrix6d& information) {
 }
 
 void translate_euler_pose(std::string_view& rest, std::string& out) {
-  copy_numbers(rest, 3, out);
-  const double roll = read_number(rest);
-  const double pitch = read_number(rest);
-  const double yaw = read_number(rest);
-  const Eigen::Quaterniond q = from_roll_pitch_yaw(roll, pitch, yaw);
-  for (const double number : q.coeffs()) append_number(out, number);
+  text::copy_numbers(rest, 3, out);
+  const double roll = text::read_number(rest);
+  const double pitch = text::read_number(rest);
+  const double yaw = text::read_number(rest);
+  const Eigen::Quaterniond q = geometry::from_roll_pitch_yaw(roll, pitch, yaw);
+  for (const double number : q.coeffs()) text::append_number(out, number);
 }
 
 void translate_quaternion_pose(std::string_view& rest, std::string& out) {
-  copy_numbers(rest, 3, out);
+  text::copy_numbers(rest, 3, out);
   Eigen::Quaterniond q;
-  for (double& number : q.coeffs()) number = read_number(rest);
-  if (!(q.norm() > 0)) throw BadLine{"the quaternion is zero"};
-  for (const double angle : roll_pitch_yaw(q.normalized())) {
-    append_number(out, angle + 0.0);  // no -0
+  for (double& number : q.coeffs()) number = text::read_number(rest);
+  if (!(q.norm() > 0)) throw text::BadLine{"the quaternion is zero"};
+  for (const double angle : geometry::roll_pitch_yaw(q.normalized())) {
+    text::append_number(out, angle + 0.0);  // no -0
   }
 }
 
-}  // namespace sg
+}  // namespace sg::formats

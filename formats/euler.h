@@ -22,20 +22,20 @@
 #include "lib/geometry/triangle.h"
 #include "lib/text/line.h"
 
-namespace sg {
+namespace sg::formats {
 
 // The symmetric matrix whose upper triangle stands at the front of `rest`.
 template <int N>
 Eigen::Matrix<double, N, N> read_symmetric(std::string_view& rest) {
-  std::array<double, triangle_size(N)> triangle{};
-  for (double& number : triangle) number = read_number(rest);
-  return symmetric<Eigen::Matrix<double, N, N>>(triangle);
+  std::array<double, geometry::triangle_size(N)> triangle{};
+  for (double& number : triangle) number = text::read_number(rest);
+  return geometry::symmetric<Eigen::Matrix<double, N, N>>(triangle);
 }
 
 // " w11 w12 ...": the upper triangle.
 template <int N>
 void append_triangle(std::string& out, const Eigen::Matrix<double, N, N>& matrix) {
-  append_numbers(out, upper_triangle(matrix));
+  text::append_numbers(out, geometry::upper_triangle(matrix));
 }
 
 // S W S and its inverse S^-1 W S^-1.
@@ -47,4 +47,4 @@ void translate_euler_pose(std::string_view& rest, std::string& out);
 // "x y z qx qy qz qw" at the front of `rest`, appended as " x y z roll pitch yaw".
 void translate_quaternion_pose(std::string_view& rest, std::string& out);
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -8,7 +8,7 @@
 #include "formats/toro.h"
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 constexpr std::array formats{
@@ -32,22 +32,22 @@ const ReadFormat& find_format(const ReadOptions& options, std::string_view text)
     if (name.empty() ? format.looks_like(text) : format.name == name) return format;
     known += (known.empty() ? "" : ", ") + std::string(format.name);
   }
-  throw usage_error("unknown format '" + name + "'; there are " + known);
+  throw text::usage_error("unknown format '" + name + "'; there are " + known);
 }
 
 Graph read_graph(const std::string& path, const ReadOptions& options) {
-  return read_graph_text(read_text(path), input_name(path), options);
+  return read_graph_text(text::read_text(path), text::input_name(path), options);
 }
 
-Graph read_graph_text(Text text, const std::string& file, const ReadOptions& options) {
+Graph read_graph_text(text::Text text, const std::string& file, const ReadOptions& options) {
   const Complaint complaint =
-      options.complaint ? options.complaint : [](const Error& error) { throw error; };
-  Tags tags = builtin_tags();
-  for (const auto& spec : options.vertex_types) teach_vertex(tags, spec);
-  for (const auto& spec : options.edge_types) teach_edge(tags, spec);
-  for (const auto& tag : options.param_tags) teach_params(tags, tag);
+      options.complaint ? options.complaint : [](const text::Error& error) { throw error; };
+  graph::Tags tags = graph::builtin_tags();
+  for (const auto& spec : options.vertex_types) graph::teach_vertex(tags, spec);
+  for (const auto& spec : options.edge_types) graph::teach_edge(tags, spec);
+  for (const auto& tag : options.param_tags) graph::teach_params(tags, tag);
   const ReadFormat& format = find_format(options, text.view);
-  if (format.to_g2o) text = text_of(format.to_g2o(text.view, file, complaint));
+  if (format.to_g2o) text = text::text_of(format.to_g2o(text.view, file, complaint));
   return parse_g2o(std::move(text), file, std::move(tags), complaint);
 }
 
@@ -56,8 +56,8 @@ std::vector<std::pair<std::string, std::int64_t>> count_tags(std::string_view te
   std::unordered_map<std::string_view, std::size_t> place;
   std::size_t last = 0;
   while (!text.empty()) {
-    auto line = next_line(text);
-    auto tag = next_word(line);
+    auto line = text::next_line(text);
+    auto tag = text::next_word(line);
     if (tag.empty()) continue;
     if (tag.front() == '#') tag = tag.substr(0, 1);
     if (last == counts.size() || counts[last].first != tag) {
@@ -69,4 +69,4 @@ std::vector<std::pair<std::string, std::int64_t>> count_tags(std::string_view te
   return counts;
 }
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -16,11 +16,11 @@
 #include "lib/graph/graph.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::formats {
 
 // Called with every defect of a graph file. May throw; if it returns, reading goes on without the
 // defective line.
-using Complaint = std::function<void(const Error&)>;
+using Complaint = std::function<void(const text::Error&)>;
 
 struct ReadOptions {
   std::string format;                     // a name of the table; empty: told by content
@@ -33,7 +33,7 @@ struct ReadOptions {
 // Reads a graph. `path` "-" is standard input.
 Graph read_graph(const std::string& path, const ReadOptions& options = {});
 // The same from text in memory; `file` names it in messages.
-Graph read_graph_text(Text text, const std::string& file, const ReadOptions& options = {});
+Graph read_graph_text(text::Text text, const std::string& file, const ReadOptions& options = {});
 
 struct ReadFormat {
   std::string_view name;
@@ -50,4 +50,4 @@ const ReadFormat& find_format(const ReadOptions& options, std::string_view text)
 // How many lines have each tag (comments: "#"), in the order in which the tags appear.
 std::vector<std::pair<std::string, std::int64_t>> count_tags(std::string_view text);
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -6,7 +6,7 @@
 
 #include "lib/text/line.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 constexpr std::string_view order_comment = "# sg-order: ";
@@ -53,41 +53,41 @@ struct Parser {
   IdList edge_ids;
   std::vector<Fix> fixes;
   std::string_view last_tag;  // runs of lines share their tag: look it up once
-  const TagMeaning* last_meaning = nullptr;
+  const graph::TagMeaning* last_meaning = nullptr;
 
   LineCounter line_number;
 
   explicit Parser(const Complaint& complaint_) : complaint(complaint_) {}
 
   void complain(Offset line, const std::string& cause) {
-    complaint(input_error(graph.file, line_number(graph.text.view, line), cause));
+    complaint(text::input_error(graph.file, line_number(graph.text.view, line), cause));
   }
 };
 
-Error too_large(const Graph& graph) {
-  return input_error(graph.file, 0,
-                     "more than 2^31 - 1 vertices or edge ends: the graph is too large");
+text::Error too_large(const Graph& graph) {
+  return text::input_error(graph.file, 0,
+                           "more than 2^31 - 1 vertices or edge ends: the graph is too large");
 }
 
 // Checks that the rest of the line is numbers, `needed` of them or more (-1: any count).
 void check_numbers(std::string_view line, std::int64_t needed, std::string_view tag) {
   std::int64_t count = 0;
   while (true) {
-    while (take_plain_number(line)) ++count;
-    const auto word = next_word(line);
+    while (text::take_plain_number(line)) ++count;
+    const auto word = text::next_word(line);
     if (word.empty()) break;
-    if (!parse<double>(word)) throw BadLine{quoted(word) + " is not a number"};
+    if (!text::parse<double>(word)) throw text::BadLine{text::quoted(word) + " is not a number"};
     ++count;
   }
   if (count < needed) {
-    throw BadLine{std::string(tag) + " wants " + std::to_string(needed) +
-                  " numbers here, the line has " + std::to_string(count)};
+    throw text::BadLine{std::string(tag) + " wants " + std::to_string(needed) +
+                        " numbers here, the line has " + std::to_string(count)};
   }
 }
 
-void parse_vertex(Parser& parser, TypeIndex type_index, Offset at, std::string_view rest) {
-  const VertexType& type = parser.graph.tags.vertices[type_index];
-  const Id id = read_id(rest, "a vertex id");
+void parse_vertex(Parser& parser, graph::TypeIndex type_index, Offset at, std::string_view rest) {
+  const graph::VertexType& type = parser.graph.tags.vertices[type_index];
+  const Id id = text::read_id(rest, "a vertex id");
   check_numbers(rest, type.numbers, type.tag);
   if (parser.graph.id.size() == std::numeric_limits<Index>::max()) throw too_large(parser.graph);
   parser.graph.id.push_back(id);
@@ -96,28 +96,29 @@ void parse_vertex(Parser& parser, TypeIndex type_index, Offset at, std::string_v
 }
 
 // The ids of an edge line, onto parser.edge_ids; returns how many numbers have to follow.
-std::int64_t parse_edge_ids(Parser& parser, const EdgeType& type, std::string_view& rest) {
+std::int64_t parse_edge_ids(Parser& parser, const graph::EdgeType& type, std::string_view& rest) {
   if (!type.counted) {
-    for (int k = 0; k < type.arity; ++k) parser.edge_ids.push_back(read_id(rest, "a vertex id"));
+    for (int k = 0; k < type.arity; ++k)
+      parser.edge_ids.push_back(text::read_id(rest, "a vertex id"));
     return type.numbers;
   }
-  parser.edge_ids.push_back(read_id(rest, "a vertex id"));
-  const Id count = read_id(rest, "the number of vertices");
+  parser.edge_ids.push_back(text::read_id(rest, "a vertex id"));
+  const Id count = text::read_id(rest, "the number of vertices");
   if (count > static_cast<Id>(rest.size()))
-    throw BadLine{"the line ends before its " + std::to_string(count) + " vertex ids"};
-  for (Id k = 0; k < count; ++k) parser.edge_ids.push_back(read_id(rest, "a vertex id"));
+    throw text::BadLine{"the line ends before its " + std::to_string(count) + " vertex ids"};
+  for (Id k = 0; k < count; ++k) parser.edge_ids.push_back(text::read_id(rest, "a vertex id"));
   return type.numbers < 0 ? -1 : count * type.numbers;
 }
 
-void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_view rest) {
+void parse_edge(Parser& parser, graph::TypeIndex type_index, Offset at, std::string_view rest) {
   Graph& graph = parser.graph;
-  const EdgeType& type = graph.tags.edges[type_index];
+  const graph::EdgeType& type = graph.tags.edges[type_index];
   const std::size_t first = parser.edge_ids.small.size();
   try {
     const std::int64_t numbers = parse_edge_ids(parser, type, rest);
-    for (int k = 0; k < type.params.size; ++k) read_id(rest, "a parameter id");
+    for (int k = 0; k < type.params.size; ++k) text::read_id(rest, "a parameter id");
     check_numbers(rest, numbers, type.tag);
-  } catch (const BadLine&) {
+  } catch (const text::BadLine&) {
     parser.edge_ids.small.resize(first);
     throw;
   }
@@ -127,9 +128,9 @@ void parse_edge(Parser& parser, TypeIndex type_index, Offset at, std::string_vie
   graph.edge_begin.push_back(static_cast<Index>(parser.edge_ids.small.size()));
 }
 
-void parse_param(Parser& parser, ParamTag type, Offset at, std::string_view tag,
+void parse_param(Parser& parser, graph::ParamTag type, Offset at, std::string_view tag,
                  std::string_view rest) {
-  const Id id = read_id(rest, "a parameter id");
+  const Id id = text::read_id(rest, "a parameter id");
   check_numbers(rest, 0, tag);
   parser.graph.params.push_back({id, type, at});
 }
@@ -137,8 +138,8 @@ void parse_param(Parser& parser, ParamTag type, Offset at, std::string_view tag,
 void parse_fix(Parser& parser, Offset at, std::string_view rest) {
   std::vector<Fix> fixes;
   do {
-    fixes.push_back({read_id(rest, "a vertex id"), at});
-    while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+    fixes.push_back({text::read_id(rest, "a vertex id"), at});
+    while (!rest.empty() && text::is_blank(rest.front())) rest.remove_prefix(1);
   } while (!rest.empty());
   parser.fixes.insert(parser.fixes.end(), fixes.begin(), fixes.end());
   parser.graph.fix_lines.push_back(at);
@@ -147,13 +148,13 @@ void parse_fix(Parser& parser, Offset at, std::string_view rest) {
 void parse_comment(Parser& parser, Offset at, std::string_view comment) {
   if (!comment.starts_with(order_comment)) return;
   comment.remove_prefix(order_comment.size());
-  parser.graph.order_method = next_word(comment);
+  parser.graph.order_method = text::next_word(comment);
   parser.graph.order_lines.push_back(at);
 }
 
 void parse_line(Parser& parser, Offset at, std::string_view line) {
   auto rest = line;
-  const auto tag = next_word(rest);
+  const auto tag = text::next_word(rest);
   if (tag.empty()) return;
   if (tag.front() == '#') return parse_comment(parser, at, line.substr(tag.data() - line.data()));
   if (tag != parser.last_tag) {
@@ -161,19 +162,19 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
     parser.last_tag = tag;
   }
   if (!parser.last_meaning)
-    throw BadLine{"unknown tag " + quoted(tag) +
-                  " (--vertex, --edge and --params teach a new one)"};
-  const TypeIndex type = parser.last_meaning->type;
+    throw text::BadLine{"unknown tag " + text::quoted(tag) +
+                        " (--vertex, --edge and --params teach a new one)"};
+  const graph::TypeIndex type = parser.last_meaning->type;
   switch (parser.last_meaning->kind) {
-    case LineKind::vertex:
+    case graph::LineKind::vertex:
       return parse_vertex(parser, type, at, rest);
-    case LineKind::edge:
+    case graph::LineKind::edge:
       return parse_edge(parser, type, at, rest);
-    case LineKind::fix:
+    case graph::LineKind::fix:
       return parse_fix(parser, at, rest);
-    case LineKind::param:
-      return parse_param(parser, ParamTag{type}, at, tag, rest);
-    case LineKind::data:
+    case graph::LineKind::param:
+      return parse_param(parser, graph::ParamTag{type}, at, tag, rest);
+    case graph::LineKind::data:
       return;
   }
 }
@@ -181,11 +182,11 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
 void parse_lines(Parser& parser) {
   const std::string_view text = parser.graph.text.view;
   for (std::string_view rest = text; !rest.empty();) {
-    const std::string_view line = next_line(rest);
+    const std::string_view line = text::next_line(rest);
     const Offset at = line.data() - text.data();
     try {
       parse_line(parser, at, line);
-    } catch (const BadLine& bad) {
+    } catch (const text::BadLine& bad) {
       parser.complain(at, bad.cause);
     }
   }
@@ -270,21 +271,21 @@ void imply_vertices(Parser& parser) {
   Graph& graph = parser.graph;
   struct Mention {
     Id id;
-    TypeIndex type;
+    graph::TypeIndex type;
     Index edge;
   };
   std::vector<Mention> mentions;
   mentions.reserve(parser.edge_ids.small.size());
   for (Index e = 0; e < graph.edges(); ++e) {
-    const EdgeType& type = graph.type_of_edge(e);
+    const graph::EdgeType& type = graph.type_of_edge(e);
     if (type.ends.size == 0) {
-      throw error_at(
+      throw graph::error_at(
           graph, graph.edge_line[e],
           type.tag + " does not say what its vertices are, and the file has no VERTEX lines");
     }
     for (Index k = graph.edge_begin[e]; k < graph.edge_begin[e + 1]; ++k) {
-      const VertexTag end = type.ends[std::min(k - graph.edge_begin[e], type.ends.size - 1)];
-      mentions.push_back({parser.edge_ids[k], static_cast<TypeIndex>(end), e});
+      const graph::VertexTag end = type.ends[std::min(k - graph.edge_begin[e], type.ends.size - 1)];
+      mentions.push_back({parser.edge_ids[k], static_cast<graph::TypeIndex>(end), e});
     }
   }
   std::stable_sort(mentions.begin(), mentions.end(),
@@ -300,7 +301,7 @@ void imply_vertices(Parser& parser) {
                           graph.tags.vertices[graph.vertex_type.back()].tag + " in another edge");
     }
   }
-  graph.vertex_line.assign(graph.id.size(), implied);
+  graph.vertex_line.assign(graph.id.size(), graph::implied);
   graph.edges_only = !graph.id.empty();
 }
 
@@ -356,7 +357,7 @@ void resolve_fixes(Parser& parser, const VertexLookup& lookup) {
 
 }  // namespace
 
-Graph parse_g2o(Text text, std::string file, Tags tags, const Complaint& complaint) {
+Graph parse_g2o(text::Text text, std::string file, graph::Tags tags, const Complaint& complaint) {
   Parser parser(complaint);
   parser.graph.text = std::move(text);
   parser.graph.file = std::move(file);
@@ -375,4 +376,4 @@ Graph parse_g2o(Text text, std::string file, Tags tags, const Complaint& complai
   return std::move(parser.graph);
 }
 
-}  // namespace sg
+}  // namespace sg::formats

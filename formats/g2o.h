@@ -3,7 +3,7 @@
 
 #include "formats/formats.h"
 
-namespace sg {
+namespace sg::formats {
 
 // Parses g2o text in one pass: checks every line of a known tag for its ids and for the numbers
 // that its type asks for, numbers vertices by ascending id, and resolves the edges' ids. O(text),
@@ -11,6 +11,6 @@ namespace sg {
 //
 // Defects (missing or malformed numbers, unknown tags, ids out of range, duplicate vertices, edges
 // to vertices that the file does not define) go to `complaint`.
-Graph parse_g2o(Text text, std::string file, Tags tags, const Complaint& complaint);
+Graph parse_g2o(text::Text text, std::string file, graph::Tags tags, const Complaint& complaint);
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -6,7 +6,7 @@
 #include "formats/translate.h"
 #include "lib/geometry/information.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 bool observes(std::string_view tag) {
@@ -21,13 +21,13 @@ bool joins_poses(std::string_view tag) {
 Id largest_pose_id(std::string_view text) {
   Id largest = -1;
   const auto look = [&](std::string_view line, std::string&) {
-    const auto tag = next_word(line);
+    const auto tag = text::next_word(line);
     if (!observes(tag) && !joins_poses(tag)) return;
     const int poses = observes(tag) ? 1 : 2;
-    for (int k = 0; k < poses; ++k) largest = std::max(largest, read_id(line, "a pose id"));
+    for (int k = 0; k < poses; ++k) largest = std::max(largest, text::read_id(line, "a pose id"));
   };
   translate_lines(
-      text, "", [](const Error&) {}, look);
+      text, "", [](const text::Error&) {}, look);
   return largest;
 }
 
@@ -36,47 +36,47 @@ template <int N>
 Eigen::Matrix<double, N, N> read_information(std::string_view& rest) {
   using Matrix = Eigen::Matrix<double, N, N>;
   const Matrix root = read_symmetric<N>(rest).template triangularView<Eigen::Upper>();
-  expect_end(rest);
+  text::expect_end(rest);
   return root.transpose() * root;
 }
 
 void translate_odometry(std::string_view rest, std::string& out) {
-  out += name(EdgeTag::se2);
-  for (int k = 0; k < 2; ++k) append_number(out, read_id(rest, "a pose id"));
-  copy_numbers(rest, 3, out);
+  out += graph::name(graph::EdgeTag::se2);
+  for (int k = 0; k < 2; ++k) text::append_number(out, text::read_id(rest, "a pose id"));
+  text::copy_numbers(rest, 3, out);
   append_triangle<3>(out, read_information<3>(rest));
 }
 
 void translate_edge3(std::string_view rest, std::string& out) {
-  out += name(EdgeTag::se3);
-  for (int k = 0; k < 2; ++k) append_number(out, read_id(rest, "a pose id"));
+  out += graph::name(graph::EdgeTag::se3);
+  for (int k = 0; k < 2; ++k) text::append_number(out, text::read_id(rest, "a pose id"));
   translate_euler_pose(rest, out);
   append_triangle<6>(out, to_quaternion_information(read_information<6>(rest)));
 }
 
 // `after` is the largest pose id.
 void append_landmark_id(std::string& out, std::string_view& rest, Id after) {
-  const Id number = read_id(rest, "a landmark id");
+  const Id number = text::read_id(rest, "a landmark id");
   if (number > std::numeric_limits<Id>::max() - 1 - after)
-    throw BadLine{"landmark " + std::to_string(number) +
-                  ", numbered after the poses, is beyond 64 bits"};
-  append_number(out, after + 1 + number);
+    throw text::BadLine{"landmark " + std::to_string(number) +
+                        ", numbered after the poses, is beyond 64 bits"};
+  text::append_number(out, after + 1 + number);
 }
 
 void translate_landmark(std::string_view rest, Id after, std::string& out) {
-  out += name(EdgeTag::se2_xy);
-  append_number(out, read_id(rest, "a pose id"));
+  out += graph::name(graph::EdgeTag::se2_xy);
+  text::append_number(out, text::read_id(rest, "a pose id"));
   append_landmark_id(out, rest, after);
-  copy_numbers(rest, 2, out);
+  text::copy_numbers(rest, 2, out);
   append_triangle<2>(out, read_information<2>(rest));
 }
 
 void translate_point3(std::string_view rest, Id after, std::string& out) {
-  out += name(EdgeTag::se3_trackxyz);
-  append_number(out, read_id(rest, "a pose id"));
+  out += graph::name(graph::EdgeTag::se3_trackxyz);
+  text::append_number(out, text::read_id(rest, "a pose id"));
   append_landmark_id(out, rest, after);
   out += " 0";  // the sensor's offset: the identity that is appended at the end
-  copy_numbers(rest, 3, out);
+  text::copy_numbers(rest, 3, out);
   append_triangle<3>(out, read_information<3>(rest));
 }
 
@@ -84,18 +84,20 @@ void translate_point3(std::string_view rest, Id after, std::string& out) {
 bool identity_offset(const Graph& graph, Id id) {
   const std::vector<double> identity{0, 0, 0, 0, 0, 0, 1};
   std::vector<double> numbers;
-  for (const Param& param : graph.params) {
+  for (const graph::Param& param : graph.params) {
     if (param.id != id) continue;
-    param_numbers(graph, param, numbers);
-    return param.type == ParamTag::se3_offset && numbers == identity;
+    graph::param_numbers(graph, param, numbers);
+    return param.type == graph::ParamTag::se3_offset && numbers == identity;
   }
   return false;
 }
 
 bool holds_edge(const Graph& graph, Index e) {
-  const EdgeTag type = graph.edge_tag(e);
-  if (type == EdgeTag::se3_trackxyz) return identity_offset(graph, edge_params(graph, e).front());
-  return type == EdgeTag::se2 || type == EdgeTag::se3 || type == EdgeTag::se2_xy;
+  const graph::EdgeTag type = graph.edge_tag(e);
+  if (type == graph::EdgeTag::se3_trackxyz)
+    return identity_offset(graph, graph::edge_params(graph, e).front());
+  return type == graph::EdgeTag::se2 || type == graph::EdgeTag::se3 ||
+         type == graph::EdgeTag::se2_xy;
 }
 
 // Whether an edge that iSAM can hold joins the vertex.
@@ -109,24 +111,28 @@ std::vector<bool> mentioned(const Graph& graph) {
 }
 
 void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out) {
-  auto rest = line_at(graph, graph.edge_line[e]);
-  next_word(rest);
-  const EdgeTag type = graph.edge_tag(e);
-  const bool point = type == EdgeTag::se3_trackxyz;
-  const bool landmark = point || type == EdgeTag::se2_xy;
-  out = point ? "POINT3" : landmark ? "LANDMARK" : type == EdgeTag::se2 ? "ODOMETRY" : "EDGE3";
-  append_number(out, read_id(rest, "a pose id"));
-  append_number(out, read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
-  if (type == EdgeTag::se3) {
+  auto rest = graph::line_at(graph, graph.edge_line[e]);
+  text::next_word(rest);
+  const graph::EdgeTag type = graph.edge_tag(e);
+  const bool point = type == graph::EdgeTag::se3_trackxyz;
+  const bool landmark = point || type == graph::EdgeTag::se2_xy;
+  out = point                         ? "POINT3"
+        : landmark                    ? "LANDMARK"
+        : type == graph::EdgeTag::se2 ? "ODOMETRY"
+                                      : "EDGE3";
+  text::append_number(out, text::read_id(rest, "a pose id"));
+  text::append_number(out, text::read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
+  if (type == graph::EdgeTag::se3) {
     translate_quaternion_pose(rest, out);
     return append_triangle<6>(
-        out, triangular_square_root(to_euler_information(read_symmetric<6>(rest))));
+        out, geometry::triangular_square_root(to_euler_information(read_symmetric<6>(rest))));
   }
-  if (point) read_id(rest, "a parameter id");
-  const int numbers = type == EdgeTag::se2_xy ? 2 : 3;
-  copy_numbers(rest, numbers, out);
-  if (numbers == 2) return append_triangle<2>(out, triangular_square_root(read_symmetric<2>(rest)));
-  append_triangle<3>(out, triangular_square_root(read_symmetric<3>(rest)));
+  if (point) text::read_id(rest, "a parameter id");
+  const int numbers = type == graph::EdgeTag::se2_xy ? 2 : 3;
+  text::copy_numbers(rest, numbers, out);
+  if (numbers == 2)
+    return append_triangle<2>(out, geometry::triangular_square_root(read_symmetric<2>(rest)));
+  append_triangle<3>(out, geometry::triangular_square_root(read_symmetric<3>(rest)));
 }
 
 // What to take off a landmark's id so that reading gives it back; 0 where that cannot be.
@@ -136,8 +142,8 @@ Id first_landmark(const Graph& graph) {
   Id landmark = std::numeric_limits<Id>::max();
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (!used[v]) continue;
-    if (graph.role(v) == Role::pose) last_pose = graph.id[v];
-    if (graph.role(v) == Role::landmark) landmark = std::min(landmark, graph.id[v]);
+    if (graph.role(v) == graph::Role::pose) last_pose = graph.id[v];
+    if (graph.role(v) == graph::Role::landmark) landmark = std::min(landmark, graph.id[v]);
   }
   return landmark > last_pose ? last_pose + 1 : 0;
 }
@@ -161,7 +167,7 @@ std::string isam_to_g2o(std::string_view text, const std::string& file,
   bool offset_needed = false;
   const auto translate = [&](std::string_view line, std::string& out) {
     auto rest = line;
-    const auto tag = next_word(rest);
+    const auto tag = text::next_word(rest);
     if (tag == "ODOMETRY" || tag == "EDGE2") return translate_odometry(rest, out);
     if (tag == "EDGE3") return translate_edge3(rest, out);
     if (tag == "LANDMARK") return translate_landmark(rest, after, out);
@@ -170,7 +176,8 @@ std::string isam_to_g2o(std::string_view text, const std::string& file,
     translate_point3(rest, after, out);
   };
   std::string g2o = translate_lines(text, file, complaint, translate);
-  if (offset_needed) g2o.append(name(ParamTag::se3_offset)).append(" 0 0 0 0 0 0 0 1\n");
+  if (offset_needed)
+    g2o.append(graph::name(graph::ParamTag::se3_offset)).append(" 0 0 0 0 0 0 0 1\n");
   return g2o;
 }
 
@@ -180,9 +187,10 @@ Losses isam_losses(const Graph& graph) {
   const std::vector<bool> used = mentioned(graph);
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (!used[v]) add_loss(losses, graph.vertex_line[v], "a vertex without an edge", true);
-    if (graph.vertex_line[v] != implied) add_loss(losses, graph.vertex_line[v], "estimates", false);
+    if (graph.vertex_line[v] != graph::implied)
+      add_loss(losses, graph.vertex_line[v], "estimates", false);
   }
-  for (Offset line : graph.fix_lines) add_loss(losses, line, fix_tag, false);
+  for (Offset line : graph.fix_lines) add_loss(losses, line, graph::fix_tag, false);
   return losses;
 }
 
@@ -193,11 +201,11 @@ void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
     if (!holds_edge(graph, e)) continue;
     try {
       write_edge(graph, e, first, out);
-    } catch (const BadLine& bad) {
-      throw error_at(graph, graph.edge_line[e], bad.cause);
+    } catch (const text::BadLine& bad) {
+      throw graph::error_at(graph, graph.edge_line[e], bad.cause);
     }
     sink.write(out += '\n');
   }
 }
 
-}  // namespace sg
+}  // namespace sg::formats

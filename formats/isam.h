@@ -15,7 +15,7 @@
 #include "formats/convert.h"
 #include "formats/formats.h"
 
-namespace sg {
+namespace sg::formats {
 
 bool looks_like_isam(std::string_view text);
 std::string isam_to_g2o(std::string_view text, const std::string& file, const Complaint& complaint);
@@ -26,4 +26,4 @@ std::string isam_to_g2o(std::string_view text, const std::string& file, const Co
 Losses isam_losses(const Graph& graph);
 void write_isam(const Graph& graph, const WriteOptions& options, Sink& sink);
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -2,11 +2,11 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::formats {
 
 void write_metis(const Graph& graph, const WriteOptions&, Sink& sink) {
-  const Pattern pattern = graph_pattern(graph).pattern;
-  const Adjacency neighbours = adjacency(pattern);
+  const graph::Pattern pattern = graph::graph_pattern(graph).pattern;
+  const graph::Adjacency neighbours = graph::adjacency(pattern);
   sink.write("% vertices, edges; format 010: a line holds its vertex's weight and neighbours\n");
   sink.write(std::to_string(neighbours.size()) + " " + std::to_string(neighbours.items.size() / 2) +
              " 010 1\n");
@@ -17,4 +17,4 @@ void write_metis(const Graph& graph, const WriteOptions&, Sink& sink) {
   }
 }
 
-}  // namespace sg
+}  // namespace sg::formats

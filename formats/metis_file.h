@@ -4,8 +4,8 @@
 
 #include "formats/convert.h"
 
-namespace sg {
+namespace sg::formats {
 
 void write_metis(const Graph& graph, const WriteOptions& options, Sink& sink);
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -4,7 +4,7 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 std::string entry(std::int64_t row, std::int64_t column) {
@@ -17,7 +17,7 @@ void write_head(std::string_view what, std::int64_t n, std::int64_t entries, Sin
   sink.write(std::to_string(n) + " " + std::to_string(n) + " " + std::to_string(entries) + "\n");
 }
 
-void write_block(const Adjacency& adjacency, Sink& sink) {
+void write_block(const graph::Adjacency& adjacency, Sink& sink) {
   const auto below = static_cast<std::int64_t>(adjacency.items.size() / 2);
   write_head("block pattern of A^T A: a row a variable, by ascending id", adjacency.size(),
              adjacency.size() + below, sink);
@@ -30,13 +30,13 @@ void write_block(const Adjacency& adjacency, Sink& sink) {
 }
 
 // First scalar row of every variable, and their number at the end.
-std::vector<std::int64_t> scalar_rows(const Pattern& pattern) {
+std::vector<std::int64_t> scalar_rows(const graph::Pattern& pattern) {
   std::vector<std::int64_t> first(1, 0);
   for (const int dim : pattern.dim) first.push_back(first.back() + dim);
   return first;
 }
 
-std::int64_t scalar_entries(const Pattern& pattern, const Adjacency& adjacency) {
+std::int64_t scalar_entries(const graph::Pattern& pattern, const graph::Adjacency& adjacency) {
   std::int64_t entries = 0;
   for (Index j = 0; j < pattern.variables(); ++j) {
     const std::int64_t dim = pattern.dim[j];
@@ -46,7 +46,7 @@ std::int64_t scalar_entries(const Pattern& pattern, const Adjacency& adjacency) 
   return entries;
 }
 
-void write_scalar(const Pattern& pattern, const Adjacency& adjacency, Sink& sink) {
+void write_scalar(const graph::Pattern& pattern, const graph::Adjacency& adjacency, Sink& sink) {
   const auto first = scalar_rows(pattern);
   write_head("pattern of A^T A: the dimensions of the variables, by ascending id", first.back(),
              scalar_entries(pattern, adjacency), sink);
@@ -64,12 +64,12 @@ void write_scalar(const Pattern& pattern, const Adjacency& adjacency, Sink& sink
 }  // namespace
 
 void write_mtx(const Graph& graph, const WriteOptions& options, Sink& sink) {
-  const Pattern pattern = graph_pattern(graph).pattern;
+  const graph::Pattern pattern = graph::graph_pattern(graph).pattern;
   if (options.scalar) {
-    write_scalar(pattern, adjacency(pattern), sink);
+    write_scalar(pattern, graph::adjacency(pattern), sink);
   } else {
-    write_block(adjacency(pattern), sink);
+    write_block(graph::adjacency(pattern), sink);
   }
 }
 
-}  // namespace sg
+}  // namespace sg::formats

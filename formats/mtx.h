@@ -5,8 +5,8 @@
 
 #include "formats/convert.h"
 
-namespace sg {
+namespace sg::formats {
 
 void write_mtx(const Graph& graph, const WriteOptions& options, Sink& sink);
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -6,29 +6,29 @@
 #include "lib/text/error.h"
 #include "lib/text/line.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 struct Reader {
   const std::string& file;
   const Graph& graph;
-  const GraphPattern& variables;
+  const graph::GraphPattern& variables;
   std::vector<bool> named;  // of every vertex
   bool first = true;        // no line has counted yet
-  Order order{};
+  graph::Order order{};
 };
 
 void read_line(Reader& reader, std::size_t number, std::string_view line) {
-  const auto word = next_word(line);
+  const auto word = text::next_word(line);
   if (word.empty() || word.front() == '#') return;
   const bool may_be_headline = std::exchange(reader.first, false);
-  const auto id = parse<Id>(word);
+  const auto id = text::parse<Id>(word);
   if (!id && may_be_headline) return;
   const auto fail = [&](const std::string& cause) {
-    throw input_error(reader.file, number, cause);
+    throw text::input_error(reader.file, number, cause);
   };
-  if (!id) fail(quoted(word) + " is no vertex id");
-  const auto v = find_vertex(reader.graph, *id);
+  if (!id) fail(text::quoted(word) + " is no vertex id");
+  const auto v = graph::find_vertex(reader.graph, *id);
   if (!v) fail("vertex " + std::to_string(*id) + " is not in the graph");
   if (reader.named[*v]) fail("vertex " + std::to_string(*id) + " is named a second time");
   reader.named[*v] = true;
@@ -43,19 +43,20 @@ void check_complete(const Reader& reader) {
       *std::find_if(variables.begin(), variables.end(), [&](Index u) { return !reader.named[u]; });
   std::string cause = "vertex " + std::to_string(reader.graph.id[v]);
   if (missing > 1) cause += " and " + std::to_string(missing - 1) + " more of the graph";
-  throw input_error(reader.file, 0, cause + (missing > 1 ? " are" : " is") + " not in the order");
+  throw text::input_error(reader.file, 0,
+                          cause + (missing > 1 ? " are" : " is") + " not in the order");
 }
 
 }  // namespace
 
-Order parse_order(std::string_view text, const std::string& file, const Graph& graph,
-                  const GraphPattern& variables) {
+graph::Order parse_order(std::string_view text, const std::string& file, const Graph& graph,
+                         const graph::GraphPattern& variables) {
   Reader reader{file, graph, variables, std::vector<bool>(graph.vertices(), false)};
   for (std::size_t number = 1; !text.empty(); ++number) {
-    read_line(reader, number, next_line(text));
+    read_line(reader, number, text::next_line(text));
   }
   check_complete(reader);
   return std::move(reader.order);
 }
 
-}  // namespace sg
+}  // namespace sg::formats

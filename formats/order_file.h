@@ -7,11 +7,11 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::formats {
 
 // Every variable of the graph has to be named once; a fixed vertex may be, and is passed over.
 // Throws an input Error with the line of `file` that is wrong.
-Order parse_order(std::string_view text, const std::string& file, const Graph& graph,
-                  const GraphPattern& variables);
+graph::Order parse_order(std::string_view text, const std::string& file, const Graph& graph,
+                         const graph::GraphPattern& variables);
 
-}  // namespace sg
+}  // namespace sg::formats

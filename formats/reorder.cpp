@@ -1,6 +1,6 @@
 #include "formats/reorder.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 std::string_view lines_of(const Graph& graph, Index v) {
@@ -19,7 +19,7 @@ std::string with_end_of(std::string_view lines, std::string_view place) {
 }  // namespace
 
 std::vector<Edit> reordered(const Graph& graph, const std::vector<Index>& order) {
-  const std::vector<Index> places = file_order(graph);
+  const std::vector<Index> places = graph::file_order(graph);
   std::vector<Edit> edits;
   edits.reserve(places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -31,4 +31,4 @@ std::vector<Edit> reordered(const Graph& graph, const std::vector<Index>& order)
   return edits;
 }
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -5,71 +5,71 @@
 #include "formats/euler.h"
 #include "formats/translate.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 void append_ids(std::string& out, std::string_view& rest, int count) {
-  for (int k = 0; k < count; ++k) append_number(out, read_id(rest, "a vertex id"));
+  for (int k = 0; k < count; ++k) text::append_number(out, text::read_id(rest, "a vertex id"));
 }
 
 void translate_vertex2(std::string_view rest, std::string& out) {
-  out += name(VertexTag::se2);
+  out += graph::name(graph::VertexTag::se2);
   append_ids(out, rest, 1);
-  copy_numbers(rest, 3, out);
-  expect_end(rest);
+  text::copy_numbers(rest, 3, out);
+  text::expect_end(rest);
 }
 
 void translate_edge2(std::string_view rest, std::string& out) {
-  out += name(EdgeTag::se2);
+  out += graph::name(graph::EdgeTag::se2);
   append_ids(out, rest, 2);
-  copy_numbers(rest, 3, out);
+  text::copy_numbers(rest, 3, out);
   std::array<std::string_view, 6> w;  // row by row
-  for (const int k : toro_triangle) w[k] = read_number_text(rest);
-  expect_end(rest);
-  for (const auto word : w) append_word(out, word);
+  for (const int k : graph::toro_triangle) w[k] = text::read_number_text(rest);
+  text::expect_end(rest);
+  for (const auto word : w) text::append_word(out, word);
 }
 
 void translate_vertex3(std::string_view rest, std::string& out) {
-  out += name(VertexTag::se3);
+  out += graph::name(graph::VertexTag::se3);
   append_ids(out, rest, 1);
   translate_euler_pose(rest, out);
-  expect_end(rest);
+  text::expect_end(rest);
 }
 
 void translate_edge3(std::string_view rest, std::string& out) {
-  out += name(EdgeTag::se3);
+  out += graph::name(graph::EdgeTag::se3);
   append_ids(out, rest, 2);
   translate_euler_pose(rest, out);
   const Matrix6d information = read_symmetric<6>(rest);
-  expect_end(rest);
+  text::expect_end(rest);
   append_triangle<6>(out, to_quaternion_information(information));
 }
 
 bool holds_vertex(const Graph& graph, Index v) {
-  const VertexTag type = graph.vertex_tag(v);
-  return type == VertexTag::se2 || type == VertexTag::se3 || type == VertexTag::toro2 ||
-         type == VertexTag::toro3;
+  const graph::VertexTag type = graph.vertex_tag(v);
+  return type == graph::VertexTag::se2 || type == graph::VertexTag::se3 ||
+         type == graph::VertexTag::toro2 || type == graph::VertexTag::toro3;
 }
 
 bool holds_edge(const Graph& graph, Index e) {
-  const EdgeTag type = graph.edge_tag(e);
-  return type == EdgeTag::se2 || type == EdgeTag::se3 || type == EdgeTag::toro2 ||
-         type == EdgeTag::toro3;
+  const graph::EdgeTag type = graph.edge_tag(e);
+  return type == graph::EdgeTag::se2 || type == graph::EdgeTag::se3 ||
+         type == graph::EdgeTag::toro2 || type == graph::EdgeTag::toro3;
 }
 
 void write_se2(std::string_view rest, std::string& out) {
   out = "VERTEX2";
   append_ids(out, rest, 1);
-  copy_numbers(rest, 3, out);
+  text::copy_numbers(rest, 3, out);
 }
 
 void write_edge_se2(std::string_view rest, std::string& out) {
   out = "EDGE2";
   append_ids(out, rest, 2);
-  copy_numbers(rest, 3, out);
+  text::copy_numbers(rest, 3, out);
   std::array<std::string_view, 6> w;  // row by row
-  for (auto& word : w) word = read_number_text(rest);
-  for (const int k : toro_triangle) append_word(out, w[k]);
+  for (auto& word : w) word = text::read_number_text(rest);
+  for (const int k : graph::toro_triangle) text::append_word(out, w[k]);
 }
 
 void write_se3(std::string_view rest, std::string& out) {
@@ -85,16 +85,18 @@ void write_edge_se3(std::string_view rest, std::string& out) {
   append_triangle<6>(out, to_euler_information(read_symmetric<6>(rest)));
 }
 
-void write_vertex(VertexTag type, std::string_view line, std::string_view rest, std::string& out) {
-  if (type == VertexTag::se2) return write_se2(rest, out);
-  if (type == VertexTag::se3) return write_se3(rest, out);
-  if (type == VertexTag::toro2 || type == VertexTag::toro3) out = line;
+void write_vertex(graph::VertexTag type, std::string_view line, std::string_view rest,
+                  std::string& out) {
+  if (type == graph::VertexTag::se2) return write_se2(rest, out);
+  if (type == graph::VertexTag::se3) return write_se3(rest, out);
+  if (type == graph::VertexTag::toro2 || type == graph::VertexTag::toro3) out = line;
 }
 
-void write_edge(EdgeTag type, std::string_view line, std::string_view rest, std::string& out) {
-  if (type == EdgeTag::se2) return write_edge_se2(rest, out);
-  if (type == EdgeTag::se3) return write_edge_se3(rest, out);
-  if (type == EdgeTag::toro2 || type == EdgeTag::toro3) out = line;
+void write_edge(graph::EdgeTag type, std::string_view line, std::string_view rest,
+                std::string& out) {
+  if (type == graph::EdgeTag::se2) return write_edge_se2(rest, out);
+  if (type == graph::EdgeTag::se3) return write_edge_se3(rest, out);
+  if (type == graph::EdgeTag::toro2 || type == graph::EdgeTag::toro3) out = line;
 }
 
 }  // namespace
@@ -112,7 +114,7 @@ std::string toro_to_g2o(std::string_view text, const std::string& file,
                         const Complaint& complaint) {
   return translate_lines(text, file, complaint, [](std::string_view line, std::string& out) {
     auto rest = line;
-    const auto tag = next_word(rest);
+    const auto tag = text::next_word(rest);
     if (tag == "VERTEX2") return translate_vertex2(rest, out);
     if (tag == "EDGE2") return translate_edge2(rest, out);
     if (tag == "VERTEX3") return translate_vertex3(rest, out);
@@ -125,22 +127,22 @@ Losses toro_losses(const Graph& graph) {
   Losses losses;
   add_edge_losses(losses, graph, holds_edge);
   add_vertex_losses(losses, graph, holds_vertex);
-  for (Offset line : graph.fix_lines) add_loss(losses, line, fix_tag, false);
+  for (Offset line : graph.fix_lines) add_loss(losses, line, graph::fix_tag, false);
   return losses;
 }
 
 void write_toro(const Graph& graph, const WriteOptions&, Sink& sink) {
   const auto translate = [&graph](std::string_view line, std::string& out) {
     auto rest = line;
-    const TagMeaning* meaning = graph.tags.find(next_word(rest));
+    const graph::TagMeaning* meaning = graph.tags.find(text::next_word(rest));
     if (!meaning) return;
-    if (meaning->kind == LineKind::vertex) {
-      write_vertex(VertexTag{meaning->type}, line, rest, out);
-    } else if (meaning->kind == LineKind::edge) {
-      write_edge(EdgeTag{meaning->type}, line, rest, out);
+    if (meaning->kind == graph::LineKind::vertex) {
+      write_vertex(graph::VertexTag{meaning->type}, line, rest, out);
+    } else if (meaning->kind == graph::LineKind::edge) {
+      write_edge(graph::EdgeTag{meaning->type}, line, rest, out);
     }
   };
   write_lines(graph, translate, sink);
 }
 
-}  // namespace sg
+}  // namespace sg::formats

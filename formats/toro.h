@@ -12,7 +12,7 @@
 #include "formats/convert.h"
 #include "formats/formats.h"
 
-namespace sg {
+namespace sg::formats {
 
 bool looks_like_toro(std::string_view text);
 std::string toro_to_g2o(std::string_view text, const std::string& file, const Complaint& complaint);
@@ -20,4 +20,4 @@ std::string toro_to_g2o(std::string_view text, const std::string& file, const Co
 Losses toro_losses(const Graph& graph);
 void write_toro(const Graph& graph, const WriteOptions& options, Sink& sink);
 
-}  // namespace sg
+}  // namespace sg::formats

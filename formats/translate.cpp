@@ -2,7 +2,7 @@
 
 #include "lib/text/line.h"
 
-namespace sg {
+namespace sg::formats {
 
 std::string translate_lines(std::string_view text, const std::string& file,
                             const Complaint& complaint, const TranslateLine& translate) {
@@ -11,10 +11,10 @@ std::string translate_lines(std::string_view text, const std::string& file,
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t mark = out.size();
     try {
-      translate(next_line(text), out);
-    } catch (const BadLine& bad) {
+      translate(text::next_line(text), out);
+    } catch (const text::BadLine& bad) {
       out.resize(mark);
-      complaint(input_error(file, number, bad.cause));
+      complaint(text::input_error(file, number, bad.cause));
     }
     out += '\n';
   }
@@ -24,17 +24,17 @@ std::string translate_lines(std::string_view text, const std::string& file,
 void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink) {
   std::string out;
   for (std::string_view text = graph.text.view; !text.empty();) {
-    const std::string_view line = next_line(text);
+    const std::string_view line = text::next_line(text);
     out.clear();
     auto rest = line;
     try {
-      if (next_word(rest).starts_with('#')) {
+      if (text::next_word(rest).starts_with('#')) {
         out = line;
       } else {
         translate(line, out);
       }
-    } catch (const BadLine& bad) {
-      throw error_at(graph, line.data() - graph.text.view.data(), bad.cause);
+    } catch (const text::BadLine& bad) {
+      throw graph::error_at(graph, line.data() - graph.text.view.data(), bad.cause);
     }
     if (!out.empty()) sink.write(out += '\n');
   }
@@ -42,11 +42,11 @@ void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink)
 
 void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look) {
   while (!text.empty()) {
-    auto line = next_line(text);
-    const auto tag = next_word(line);
-    const bool skip = tag.empty() || tag.front() == '#' || tag == fix_tag;
+    auto line = text::next_line(text);
+    const auto tag = text::next_word(line);
+    const bool skip = tag.empty() || tag.front() == '#' || tag == graph::fix_tag;
     if (!skip && look(tag)) return;
   }
 }
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -9,7 +9,7 @@
 #include "formats/formats.h"
 #include "formats/write.h"
 
-namespace sg {
+namespace sg::formats {
 
 // Appends a line's translation without its newline.
 using TranslateLine = std::function<void(std::string_view line, std::string& out)>;
@@ -27,4 +27,4 @@ void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink)
 // returns true. How a format is told by content.
 void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look);
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -7,20 +7,20 @@
 #include "lib/text/error.h"
 #include "lib/text/line.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 bool holds(const Graph& graph, Index v) {
-  const Space space = graph.type_of_vertex(v).space;
-  return space == Space::se2 || space == Space::euler || has_quaternion(space);
+  const graph::Space space = graph.type_of_vertex(v).space;
+  return space == graph::Space::se2 || space == graph::Space::euler || graph::has_quaternion(space);
 }
 
 void append_planar(std::string_view rest, std::string& out) {
-  copy_numbers(rest, 2, out);
-  const double theta = read_number(rest);
+  text::copy_numbers(rest, 2, out);
+  const double theta = text::read_number(rest);
   out += " 0 0 0";
-  append_number(out, std::sin(theta / 2));
-  append_number(out, std::cos(theta / 2));
+  text::append_number(out, std::sin(theta / 2));
+  text::append_number(out, std::cos(theta / 2));
 }
 
 }  // namespace
@@ -28,8 +28,9 @@ void append_planar(std::string_view rest, std::string& out) {
 Losses tum_losses(const Graph& graph) {
   Losses losses;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    const VertexType& type = graph.type_of_vertex(v);
-    if (!holds(graph, v)) add_loss(losses, graph.vertex_line[v], type.tag, type.role == Role::pose);
+    const graph::VertexType& type = graph.type_of_vertex(v);
+    if (!holds(graph, v))
+      add_loss(losses, graph.vertex_line[v], type.tag, type.role == graph::Role::pose);
   }
   return losses;
 }
@@ -38,16 +39,16 @@ void write_tum(const Graph& graph, const WriteOptions&, Sink& sink) {
   std::string out;
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (!holds(graph, v)) continue;
-    auto rest = line_at(graph, graph.vertex_line[v]);
-    const Space space = graph.type_of_vertex(v).space;
-    next_word(rest);
-    out = next_word(rest);
-    if (space == Space::se2) {
+    auto rest = graph::line_at(graph, graph.vertex_line[v]);
+    const graph::Space space = graph.type_of_vertex(v).space;
+    text::next_word(rest);
+    out = text::next_word(rest);
+    if (space == graph::Space::se2) {
       append_planar(rest, out);
-    } else if (space == Space::euler) {
+    } else if (space == graph::Space::euler) {
       translate_euler_pose(rest, out);
     } else {
-      copy_numbers(rest, 7, out);
+      text::copy_numbers(rest, 7, out);
     }
     sink.write(out += '\n');
   }
@@ -60,9 +61,9 @@ namespace {
 std::string_view next_pose_line(std::string_view& text, std::size_t& number) {
   while (!text.empty()) {
     ++number;
-    const std::string_view line = next_line(text);
+    const std::string_view line = text::next_line(text);
     auto rest = line;
-    const auto word = next_word(rest);
+    const auto word = text::next_word(rest);
     if (!word.empty() && !word.starts_with('#')) return line;
   }
   return {};
@@ -70,13 +71,14 @@ std::string_view next_pose_line(std::string_view& text, std::size_t& number) {
 
 TumPose read_pose(std::string_view line, const std::string& file, std::size_t number) {
   TumPose pose{};
-  const auto time = parse<double>(next_word(line));
+  const auto time = text::parse<double>(text::next_word(line));
   if (!time || *time < 0 || *time != std::floor(*time) || *time > 9e15)
-    throw input_error(file, number, "a time that is no vertex id: poses are matched by id");
+    throw text::input_error(file, number, "a time that is no vertex id: poses are matched by id");
   pose.id = static_cast<Id>(*time);
   for (double& value : pose.numbers) {
-    const auto read = parse<double>(next_word(line));
-    if (!read) throw input_error(file, number, "a pose wants x y z qx qy qz qw behind its time");
+    const auto read = text::parse<double>(text::next_word(line));
+    if (!read)
+      throw text::input_error(file, number, "a pose wants x y z qx qy qz qw behind its time");
     value = *read;
   }
   return pose;
@@ -87,7 +89,7 @@ TumPose read_pose(std::string_view line, const std::string& file, std::size_t nu
 bool looks_like_tum(std::string_view text) {
   std::size_t number = 0;
   auto line = next_pose_line(text, number);
-  return parse<double>(next_word(line)).has_value();
+  return text::parse<double>(text::next_word(line)).has_value();
 }
 
 std::vector<TumPose> read_tum(std::string_view text, const std::string& file) {
@@ -101,9 +103,9 @@ std::vector<TumPose> read_tum(std::string_view text, const std::string& file) {
             [](const TumPose& a, const TumPose& b) { return a.id < b.id; });
   for (std::size_t k = 1; k < poses.size(); ++k) {
     if (poses[k].id == poses[k - 1].id)
-      throw input_error(file, 0, "time " + std::to_string(poses[k].id) + " comes twice");
+      throw text::input_error(file, 0, "time " + std::to_string(poses[k].id) + " comes twice");
   }
   return poses;
 }
 
-}  // namespace sg
+}  // namespace sg::formats

@@ -7,7 +7,7 @@
 
 #include "formats/convert.h"
 
-namespace sg {
+namespace sg::formats {
 
 // Poses need VERTEX lines with estimates.
 Losses tum_losses(const Graph& graph);
@@ -23,4 +23,4 @@ bool looks_like_tum(std::string_view text);
 // By ascending id. Throws an input Error for a line of another form, or an id that comes twice.
 std::vector<TumPose> read_tum(std::string_view text, const std::string& file);
 
-}  // namespace sg
+}  // namespace sg::formats

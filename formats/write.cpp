@@ -5,25 +5,25 @@
 
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::formats {
 namespace {
 
 bool is_data(const Graph& graph, Offset line) {
-  auto rest = line_at(graph, line);
-  const auto* meaning = graph.tags.find(next_word(rest));
-  return meaning && meaning->kind == LineKind::data;
+  auto rest = graph::line_at(graph, line);
+  const auto* meaning = graph.tags.find(text::next_word(rest));
+  return meaning && meaning->kind == graph::LineKind::data;
 }
 
 // FIX lines lose the dropped vertices; one that names no other goes.
 void edit_fix_lines(const Graph& graph, const std::vector<bool>& drop_vertex,
                     std::vector<Edit>& edits) {
   for (Offset line : graph.fix_lines) {
-    auto rest = line_at(graph, line);
-    next_word(rest);
+    auto rest = graph::line_at(graph, line);
+    text::next_word(rest);
     std::string kept;
     bool dropped = false;
-    for (auto word = next_word(rest); !word.empty(); word = next_word(rest)) {
-      const auto v = find_vertex(graph, parse<Id>(word).value_or(-1));
+    for (auto word = text::next_word(rest); !word.empty(); word = text::next_word(rest)) {
+      const auto v = graph::find_vertex(graph, text::parse<Id>(word).value_or(-1));
       if (v && drop_vertex[*v]) {
         dropped = true;
       } else {
@@ -32,8 +32,8 @@ void edit_fix_lines(const Graph& graph, const std::vector<bool>& drop_vertex,
     }
     if (!dropped) continue;
     const auto [begin, end] = line_extent(graph, line);
-    const auto newline = line_at(graph, line).ends_with('\r') ? "\r\n" : "\n";
-    edits.push_back({begin, end, kept.empty() ? "" : std::string(fix_tag) + kept + newline});
+    const auto newline = graph::line_at(graph, line).ends_with('\r') ? "\r\n" : "\n";
+    edits.push_back({begin, end, kept.empty() ? "" : std::string(graph::fix_tag) + kept + newline});
   }
 }
 
@@ -85,7 +85,7 @@ class LineEdits {
       if (changes_.drop_edge[e_] || late) {
         edge_ = Edit{begin, line_extent(graph_, begin).second, ""};
       } else if (auto line = changes_.edge_line ? changes_.edge_line(e_) : std::nullopt) {
-        const std::string_view old = line_at(graph_, begin);  // its line end stays
+        const std::string_view old = graph::line_at(graph_, begin);  // its line end stays
         const Offset length = old.size() - (old.ends_with('\r') ? 1 : 0);
         edge_ = Edit{begin, begin + length, std::move(*line)};
       }
@@ -106,7 +106,7 @@ void write_late_edges(const Graph& graph, const Changes& changes, Sink& sink) {
   for (Index e = 0; e < static_cast<Index>(changes.late_edge.size()); ++e) {
     if (!changes.late_edge[e] || changes.drop_edge[e]) continue;
     const auto line = changes.edge_line ? changes.edge_line(e) : std::nullopt;
-    sink.write(line ? *line : line_at(graph, graph.edge_line[e]));
+    sink.write(line ? *line : graph::line_at(graph, graph.edge_line[e]));
     sink.write("\n");
   }
 }
@@ -115,8 +115,8 @@ void write_late_edges(const Graph& graph, const Changes& changes, Sink& sink) {
 Offset leading_comments(const Graph& graph) {
   Offset at = 0;
   while (at < static_cast<Offset>(graph.text.view.size())) {
-    auto line = line_at(graph, at);
-    if (!next_word(line).starts_with('#')) break;
+    auto line = graph::line_at(graph, at);
+    if (!text::next_word(line).starts_with('#')) break;
     at = line_extent(graph, at).second;
   }
   return at;
@@ -183,4 +183,4 @@ void write_changed(const Graph& graph, Changes changes, std::string_view comment
   sink.write(changes.append);
 }
 
-}  // namespace sg
+}  // namespace sg::formats

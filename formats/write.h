@@ -9,7 +9,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::formats {
 
 // Where a command's output goes, in large pieces. Throws a computation Error when the bytes cannot
 // be written.
@@ -51,4 +51,4 @@ Changes unchanged(const Graph& graph);
 // Takes little memory beside the changes themselves.
 void write_changed(const Graph& graph, Changes changes, std::string_view comment, Sink& sink);
 
-}  // namespace sg
+}  // namespace sg::formats

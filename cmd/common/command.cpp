@@ -5,7 +5,7 @@
 #include <csignal>
 #include <iostream>
 
-namespace sg {
+namespace sg::cmd {
 namespace {
 
 std::string shell_quoted(const std::string& word) {
@@ -22,7 +22,7 @@ std::string shell_quoted(const std::string& word) {
   return quoted + "'";
 }
 
-void add_read_options(Command& command, ReadOptions& options) {
+void add_read_options(Command& command, formats::ReadOptions& options) {
   command.app.add_option("--from", options.format, "Input format; told by content otherwise")
       ->option_text("FORMAT");
   command.app
@@ -38,14 +38,14 @@ void add_read_options(Command& command, ReadOptions& options) {
       ->allow_extra_args(false);
 }
 
-int report(const Command& command, const Error& error) {
-  std::cerr << command.name << ": " << message(error) << '\n';
+int report(const Command& command, const text::Error& error) {
+  std::cerr << command.name << ": " << text::message(error) << '\n';
   return static_cast<int>(error.fault);
 }
 
 int usage_failure(const Command& command, const std::string& cause) {
   std::cerr << command.name << ": " << cause << " (see " << command.name << " --help)\n";
-  return static_cast<int>(Fault::usage);
+  return static_cast<int>(text::Fault::usage);
 }
 
 // CLI11 spells out the limits of double, 309 digits, where any number above 0 would do.
@@ -71,13 +71,14 @@ int guarded(const Command& command, const std::function<int()>& work) {
     }
   } catch (const ClosedPipe&) {
     return 0;
-  } catch (const Error& error) {
-    return error.fault == Fault::usage && error.file.empty() ? usage_failure(command, error.what())
-                                                             : report(command, error);
+  } catch (const text::Error& error) {
+    return error.fault == text::Fault::usage && error.file.empty()
+               ? usage_failure(command, error.what())
+               : report(command, error);
   } catch (const std::bad_alloc&) {
-    return report(command, computation_error("out of memory"));
+    return report(command, text::computation_error("out of memory"));
   } catch (const std::exception& error) {
-    return report(command, computation_error(error.what()));
+    return report(command, text::computation_error(error.what()));
   }
 }
 
@@ -134,21 +135,22 @@ void add_inputs(Command& command, Inputs& inputs) {
   add_read_options(command, inputs.options);
 }
 
-Text read_text(const Input& input) {
+text::Text read_text(const Input& input) {
   if (input.path == "-" && ::isatty(STDIN_FILENO))
-    throw usage_error("no graph: give a FILE or pipe one in");
-  return read_text(input.path);
+    throw text::usage_error("no graph: give a FILE or pipe one in");
+  return text::read_text(input.path);
 }
 
 Graph read(const Input& input) {
   return read(input, read_text(input));
 }
 
-Graph read(const Input& input, Text text) {
-  Graph graph = read_graph_text(std::move(text), input_name(input.path), input.options);
+Graph read(const Input& input, text::Text text) {
+  Graph graph =
+      formats::read_graph_text(std::move(text), text::input_name(input.path), input.options);
   // Nothing at all is what a failed command upstream leaves, not a graph.
   if (graph.vertices() == 0)
-    throw input_error(graph.file, 0, "there is no vertex and no edge in it");
+    throw text::input_error(graph.file, 0, "there is no vertex and no edge in it");
   return graph;
 }
 
@@ -180,10 +182,10 @@ std::string trace_comment(const Command& command, const OutputOptions& output) {
 }
 
 void write_filtered(const Command& command, const OutputOptions& options, const Graph& graph,
-                    Changes changes) {
+                    formats::Changes changes) {
   Output output(options.path);
-  write_changed(graph, std::move(changes), trace_comment(command, options), output);
+  formats::write_changed(graph, std::move(changes), trace_comment(command, options), output);
   output.commit();
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

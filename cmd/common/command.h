@@ -10,7 +10,7 @@
 #include "cmd/common/output.h"
 #include "formats/formats.h"
 
-namespace sg {
+namespace sg::cmd {
 
 struct Command {
   // `name` as the user types it, `what` in one line.
@@ -50,21 +50,21 @@ void warn(const Command& command, const std::string& text);
 // FILE, --from, --vertex, --edge, --params.
 struct Input {
   std::string path = "-";
-  ReadOptions options;
+  formats::ReadOptions options;
 };
 void add_input(Command& command, Input& input);
 // The same for several FILEs; `paths` is {"-"} where none is given.
 struct Inputs {
   std::vector<std::string> paths{"-"};
-  ReadOptions options;
+  formats::ReadOptions options;
 };
 void add_inputs(Command& command, Inputs& inputs);
 // Reads the graph. A terminal as standard input is a usage error, since nobody types a graph; a file
 // without a vertex is an input error.
 Graph read(const Input& input);
 // The same in two, for commands that look at the text as well.
-Text read_text(const Input& input);
-Graph read(const Input& input, Text text);
+text::Text read_text(const Input& input);
+Graph read(const Input& input, text::Text text);
 Graph read(const Inputs& inputs, const std::string& path);
 
 // -o FILE, and for filters --no-trace-comment.
@@ -82,6 +82,6 @@ void add_filter_output(CLI::App& app, OutputOptions& output);  // of one of a co
 std::string trace_comment(const Command& command, const OutputOptions& output);
 // Writes the graph with its changes and the filter's comment, and commits it.
 void write_filtered(const Command& command, const OutputOptions& output, const Graph& graph,
-                    Changes changes);
+                    formats::Changes changes);
 
-}  // namespace sg
+}  // namespace sg::cmd

@@ -7,7 +7,7 @@
 #include "cmd/common/method.h"
 #include "cmd/common/table.h"
 
-namespace sg {
+namespace sg::cmd {
 
 struct DrawingOptions {
   Input input;
@@ -28,4 +28,4 @@ void add_drawing(Command& command, DrawingOptions& options, const std::string& d
   add_table(command, options.table, columns);
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

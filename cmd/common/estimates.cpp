@@ -4,35 +4,36 @@
 
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::cmd {
 namespace {
 
 // The numbers of v's line, from the first to the last that an estimate has.
-Edit numbers_edit(const Problem& problem, const Values& values, Index v) {
+formats::Edit numbers_edit(const factor::Problem& problem, const factor::Values& values, Index v) {
   const Offset line = problem.graph->vertex_line[v];
-  const auto text = line_at(*problem.graph, line);
+  const auto text = graph::line_at(*problem.graph, line);
   auto rest = text;
-  next_word(rest);
-  next_word(rest);
-  const auto first = next_word(rest);
-  for (int k = 1; k < space_size(problem.space[v]); ++k) next_word(rest);
+  text::next_word(rest);
+  text::next_word(rest);
+  const auto first = text::next_word(rest);
+  for (int k = 1; k < graph::space_size(problem.space[v]); ++k) text::next_word(rest);
   const auto at = [&](const char* p) { return line + (p - text.data()); };
-  return {at(first.data()), at(rest.data()), estimate_text(problem, values, v)};
+  return {at(first.data()), at(rest.data()), factor::estimate_text(problem, values, v)};
 }
 
 }  // namespace
 
-Edit vertex_lines(const Problem& problem, const Values& values, std::span<const Index> vertices) {
+formats::Edit vertex_lines(const factor::Problem& problem, const factor::Values& values,
+                           std::span<const Index> vertices) {
   const Offset first_edge = problem.graph->edge_line.front();
-  Edit edit{first_edge, first_edge, ""};
-  for (const Index v : vertices) edit.replacement += vertex_line(problem, values, v);
+  formats::Edit edit{first_edge, first_edge, ""};
+  for (const Index v : vertices) edit.replacement += factor::vertex_line(problem, values, v);
   return edit;
 }
 
-Changes estimate_changes(const Problem& problem, const Values& values,
-                         const std::vector<bool>& moved) {
+formats::Changes estimate_changes(const factor::Problem& problem, const factor::Values& values,
+                                  const std::vector<bool>& moved) {
   const Graph& graph = *problem.graph;
-  Changes changes = unchanged(graph);
+  formats::Changes changes = formats::unchanged(graph);
   if (graph.edges_only) {
     std::vector<Index> all(graph.vertices());
     std::iota(all.begin(), all.end(), 0);
@@ -45,4 +46,4 @@ Changes estimate_changes(const Problem& problem, const Values& values,
   return changes;
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

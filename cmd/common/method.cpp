@@ -2,7 +2,7 @@
 
 #include "cmd/common/options.h"
 
-namespace sg {
+namespace sg::cmd {
 namespace {
 
 void add(Command& command, MethodOptions& options, const char* type, int most) {
@@ -29,30 +29,31 @@ void add_method(Command& command, MethodOptions& options) {
 }
 
 void check(const MethodOptions& options) {
-  for (const auto& name : options.names) find_ordering(name);
+  for (const auto& name : options.names) order::find_ordering(name);
 }
 
 std::vector<Method> methods(const MethodOptions& options, const Graph& graph) {
   if (options.names.empty()) {
-    if (graph.order_method.empty()) return {{default_method, &find_ordering(default_method)}};
-    return {{"file:" + graph.order_method, &find_ordering("file")}};
+    if (graph.order_method.empty())
+      return {{default_method, &order::find_ordering(default_method)}};
+    return {{"file:" + graph.order_method, &order::find_ordering("file")}};
   }
   std::vector<Method> chosen;
-  for (const auto& name : options.names) chosen.push_back({name, &find_ordering(name)});
+  for (const auto& name : options.names) chosen.push_back({name, &order::find_ordering(name)});
   return chosen;
 }
 
-Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
-               const GraphPattern& variables) {
-  OrderOptions order_options = sg::order_options(graph, variables);
+graph::Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
+                      const graph::GraphPattern& variables) {
+  order::OrderOptions order_options = order::order_options(graph, variables);
   order_options.seed = options.seed;
-  return elimination_order(*method.ordering, variables.pattern, order_options);
+  return order::elimination_order(*method.ordering, variables.pattern, order_options);
 }
 
 NamedOrder named_order(const MethodOptions& options, const Graph& graph,
-                       const GraphPattern& variables) {
+                       const graph::GraphPattern& variables) {
   const Method method = methods(options, graph).front();
   return {method.label, order_by(method, options, graph, variables)};
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

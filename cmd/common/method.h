@@ -7,7 +7,7 @@
 #include "cmd/common/command.h"
 #include "lib/order/order.h"
 
-namespace sg {
+namespace sg::cmd {
 
 constexpr const char* default_method = "colamd";
 
@@ -23,20 +23,20 @@ void check(const MethodOptions& options);
 
 struct Method {
   std::string label;  // its name; "file:NAME" where sg-order's comment made the choice
-  const Ordering* ordering;
+  const order::Ordering* ordering;
 };
 std::vector<Method> methods(const MethodOptions& options, const Graph& graph);
 
 // The order of a graph's variables, or of those of a part of the graph.
-Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
-               const GraphPattern& variables);
+graph::Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
+                      const graph::GraphPattern& variables);
 
 // The same for a command that looks at one order.
 struct NamedOrder {
   std::string label;
-  Order order;
+  graph::Order order;
 };
 NamedOrder named_order(const MethodOptions& options, const Graph& graph,
-                       const GraphPattern& variables);
+                       const graph::GraphPattern& variables);
 
-}  // namespace sg
+}  // namespace sg::cmd

@@ -2,11 +2,11 @@
 
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::cmd {
 
 CLI::Validator at_least_one() {
   return {[](std::string& text) {
-            const auto value = parse<Index>(text);
+            const auto value = text::parse<Index>(text);
             return value && *value >= 1 ? std::string()
                                         : "wants a whole number of 1 or more, not '" + text + "'";
           },
@@ -60,4 +60,4 @@ std::string wrapped_list(std::string first, const std::vector<std::string>& name
   return first;
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

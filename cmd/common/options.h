@@ -9,7 +9,7 @@
 
 #include "cmd/common/command.h"
 
-namespace sg {
+namespace sg::cmd {
 
 // CLI11's checks, of a number that has to be 1 or more and of a word among some, that add nothing to
 // the help.
@@ -33,4 +33,4 @@ void add_weights(CLI::App& app, std::string& weights, const std::string& of);
 std::string wrapped_list(std::string first, const std::vector<std::string>& names,
                          std::string_view separator);
 
-}  // namespace sg
+}  // namespace sg::cmd

@@ -14,7 +14,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::cmd {
 namespace {
 
 constexpr std::size_t buffer_size = 1U << 18;
@@ -59,7 +59,7 @@ void on_signal(int signal) {
   if (signal == SIGBUS) {  // a mapped file has lost its end
     constexpr std::string_view cause = "the input became shorter while it was read\n";
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, cause.data(), cause.size());
-    ::_exit(static_cast<int>(Fault::input));
+    ::_exit(static_cast<int>(text::Fault::input));
   }
   std::signal(signal, SIG_DFL);
   ::raise(signal);
@@ -102,8 +102,8 @@ Output::~Output() {
 
 void Output::fail(const char* doing) const {
   const std::string cause = std::strerror(errno);
-  throw Error(Fault::computation, path_.empty() ? "<stdout>" : path_, 0,
-              std::string("cannot ") + doing + ": " + cause);
+  throw text::Error(text::Fault::computation, path_.empty() ? "<stdout>" : path_, 0,
+                    std::string("cannot ") + doing + ": " + cause);
 }
 
 void Output::flush(std::string_view bytes) {
@@ -147,4 +147,4 @@ void clean_up_on_signals() {
   }
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

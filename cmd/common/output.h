@@ -6,7 +6,7 @@
 
 #include "formats/write.h"
 
-namespace sg {
+namespace sg::cmd {
 
 // Thrown when the reader of our output has gone: the command ends quietly.
 struct ClosedPipe {};
@@ -15,7 +15,7 @@ struct ClosedPipe {};
 // one ("" or "-"), to standard output. A path that is no regular file (/dev/null, a named pipe) is
 // written as it stands. Throws a computation Error when the bytes cannot be written, ClosedPipe
 // when nobody reads them.
-class Output final : public Sink {
+class Output final : public formats::Sink {
  public:
   explicit Output(std::string path);
   ~Output();  // without commit(): the file is as it was before
@@ -39,4 +39,4 @@ class Output final : public Sink {
 // before it ends.
 void clean_up_on_signals();
 
-}  // namespace sg
+}  // namespace sg::cmd

@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-namespace sg {
+namespace sg::cmd {
 
 Progress::Progress(std::string command, std::string what, std::int64_t total)
     : label_(std::move(command) + ": " + std::move(what) + " "),
@@ -25,4 +25,4 @@ void Progress::update(std::int64_t done) {
   std::cerr << "\x1b[K" << std::flush;
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace sg {
+namespace sg::cmd {
 
 class Progress {
  public:
@@ -27,4 +27,4 @@ class Progress {
   Clock::time_point next_;
 };
 
-}  // namespace sg
+}  // namespace sg::cmd

@@ -5,7 +5,7 @@
 
 #include "cmd/common/options.h"
 
-namespace sg {
+namespace sg::cmd {
 namespace {
 
 std::string counted(std::ptrdiff_t count, std::size_t of, const char* things) {
@@ -13,10 +13,10 @@ std::string counted(std::ptrdiff_t count, std::size_t of, const char* things) {
 }
 
 // The kind of that name; an empty name means the graph's natural candidates.
-Candidates candidates_named(const std::string& name, const Graph& graph) {
-  if (name == "observations") return Candidates::observations;
-  if (name == "loops") return Candidates::loops;
-  return name == "both" ? Candidates::both : natural_candidates(graph);
+prune::Candidates candidates_named(const std::string& name, const Graph& graph) {
+  if (name == "observations") return prune::Candidates::observations;
+  if (name == "loops") return prune::Candidates::loops;
+  return name == "both" ? prune::Candidates::both : prune::natural_candidates(graph);
 }
 
 }  // namespace
@@ -62,40 +62,42 @@ void add_amount(Command& command, Amount& amount) {
 Prunable read_prunable(const PruneOptions& options) {
   Prunable result;
   result.graph = read(options.input);
-  result.poses = pose_index(result.graph);
+  result.poses = graph::pose_index(result.graph);
   result.kind = candidates_named(options.candidates, result.graph);
-  result.candidates = candidate_edges(result.graph, result.poses, result.kind);
+  result.candidates = prune::candidate_edges(result.graph, result.poses, result.kind);
   return result;
 }
 
-std::size_t kept_count(const Amount& amount, const Prunable& prunable, const ReadOptions& options) {
+std::size_t kept_count(const Amount& amount, const Prunable& prunable,
+                       const formats::ReadOptions& options) {
   const std::size_t candidates = prunable.candidates.size();
   if (amount.rate) return (candidates + *amount.rate / 2) / *amount.rate;
   if (amount.fraction)
     return static_cast<std::size_t>(
         std::llround(*amount.fraction * static_cast<double>(candidates)));
   if (amount.count) return std::min(candidates, static_cast<std::size_t>(*amount.count));
-  const Graph like = read_graph(amount.like, options);
-  return std::min(candidates, candidate_edges(like, pose_index(like), prunable.kind).size());
+  const Graph like = formats::read_graph(amount.like, options);
+  return std::min(candidates,
+                  prune::candidate_edges(like, graph::pose_index(like), prunable.kind).size());
 }
 
-Changes pruned(const Command& command, const Graph& graph, const PoseIndex& poses, Index min_obs,
-               Removal removal) {
-  sweep_landmarks(graph, poses, min_obs, removal);
+formats::Changes pruned(const Command& command, const Graph& graph, const graph::PoseIndex& poses,
+                        Index min_obs, prune::Removal removal) {
+  prune::sweep_landmarks(graph, poses, min_obs, removal);
   if (command.verbose) {
     const auto vertices = std::count(removal.vertex.begin(), removal.vertex.end(), true);
     const auto edges = std::count(removal.edge.begin(), removal.edge.end(), true);
     warn(command, "removed " + counted(vertices, removal.vertex.size(), "vertices") + ", " +
                       counted(edges, removal.edge.size(), "edges"));
   }
-  Changes changes;
+  formats::Changes changes;
   changes.drop_vertex = std::move(removal.vertex);
   changes.drop_edge = std::move(removal.edge);
   return changes;
 }
 
 void write_pruned(const Command& command, const PruneOptions& options, const Prunable& prunable,
-                  Removal removal) {
+                  prune::Removal removal) {
   const auto& [graph, poses, kind, candidates] = prunable;
   write_filtered(command, options.output, graph,
                  pruned(command, graph, poses, options.min_obs, std::move(removal)));
@@ -105,7 +107,7 @@ void prune(const Command& command, const PruneOptions& options,
            const std::function<std::vector<bool>(const Prunable&)>& kept) {
   const Prunable prunable = read_prunable(options);
   write_pruned(command, options, prunable,
-               removal_of_rest(prunable.graph, prunable.candidates, kept(prunable)));
+               prune::removal_of_rest(prunable.graph, prunable.candidates, kept(prunable)));
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

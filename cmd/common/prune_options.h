@@ -9,7 +9,7 @@
 #include "cmd/common/command.h"
 #include "lib/prune/candidates.h"
 
-namespace sg {
+namespace sg::cmd {
 
 struct PruneOptions {
   Input input;             // add_input
@@ -34,22 +34,23 @@ void add_amount(Command& command, Amount& amount);
 // A graph about to be pruned.
 struct Prunable {
   Graph graph;
-  PoseIndex poses;
-  Candidates kind;
+  graph::PoseIndex poses;
+  prune::Candidates kind;
   std::vector<Index> candidates;  // edges, in file order
 };
 Prunable read_prunable(const PruneOptions& options);
 // At most all candidates. --like reads its file with the options of the input.
-std::size_t kept_count(const Amount& amount, const Prunable& prunable, const ReadOptions& options);
+std::size_t kept_count(const Amount& amount, const Prunable& prunable,
+                       const formats::ReadOptions& options);
 
 // The changes to a graph that a removal makes, after a sweep of its landmarks; -v reports them.
-Changes pruned(const Command& command, const Graph& graph, const PoseIndex& poses, Index min_obs,
-               Removal removal);
+formats::Changes pruned(const Command& command, const Graph& graph, const graph::PoseIndex& poses,
+                        Index min_obs, prune::Removal removal);
 // Writes the graph without what a removal makes leave.
 void write_pruned(const Command& command, const PruneOptions& options, const Prunable& prunable,
-                  Removal removal);
+                  prune::Removal removal);
 // The same for a policy that says of every candidate whether it stays.
 void prune(const Command& command, const PruneOptions& options,
            const std::function<std::vector<bool>(const Prunable&)>& kept);
 
-}  // namespace sg
+}  // namespace sg::cmd

@@ -7,7 +7,7 @@
 #include "cmd/common/options.h"
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::cmd {
 namespace {
 
 std::string joined(const auto& items, std::string_view separator, const auto& word) {
@@ -27,8 +27,8 @@ std::string text(const Cell& cell) {
     std::string operator()(std::monostate) const { return ""; }
     std::string operator()(const std::string& word) const { return word; }
     std::string operator()(std::int64_t value) const { return std::to_string(value); }
-    std::string operator()(Wide value) const { return to_string(value); }
-    std::string operator()(double value) const { return format_number(value); }
+    std::string operator()(elim::Wide value) const { return elim::to_string(value); }
+    std::string operator()(double value) const { return text::format_number(value); }
     std::string operator()(const IdList& ids) const { return joined(ids, " ", text_of_id); }
     std::string operator()(const IdPairs& pairs) const {
       return joined(pairs, " ", [](const auto& pair) {
@@ -112,7 +112,7 @@ std::vector<std::size_t> chosen_columns(const TableOptions& options,
   for (const auto& wanted : options.columns) {
     const auto it = std::find(names.begin(), names.end(), wanted);
     if (it == names.end())
-      throw usage_error("no column '" + wanted + "'; there are " + joined(names, ","));
+      throw text::usage_error("no column '" + wanted + "'; there are " + joined(names, ","));
     chosen.push_back(static_cast<std::size_t>(it - names.begin()));
   }
   if (!options.columns.empty()) return chosen;
@@ -140,4 +140,4 @@ void write_row(const std::vector<std::string>& names, const std::vector<Cell>& c
   output.write(line + (json ? "}\n" : "\n"));
 }
 
-}  // namespace sg
+}  // namespace sg::cmd

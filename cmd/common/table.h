@@ -19,7 +19,7 @@
 #include "cmd/common/command.h"
 #include "lib/elim/score.h"
 
-namespace sg {
+namespace sg::cmd {
 
 // A number prints so that it reads back the same; a missing value is an empty cell, and null in
 // JSON. A list is separated by spaces, and an array in JSON; an edge of two ids reads 3-4, or
@@ -28,13 +28,13 @@ using IdList = std::vector<std::int64_t>;
 using IdPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 struct Cell {
   using Value =
-      std::variant<std::monostate, std::string, std::int64_t, Wide, double, IdList, IdPairs>;
+      std::variant<std::monostate, std::string, std::int64_t, elim::Wide, double, IdList, IdPairs>;
   Value value = {};
 
   Cell() = default;
   Cell(std::integral auto number) : value(static_cast<std::int64_t>(number)) {}
   Cell(double number) : value(number) {}
-  Cell(Wide number) : value(number) {}
+  Cell(elim::Wide number) : value(number) {}
   Cell(const std::convertible_to<std::string_view> auto& text) : value(std::string(text)) {}
   Cell(IdList ids) : value(std::move(ids)) {}
   Cell(IdPairs pairs) : value(std::move(pairs)) {}
@@ -127,4 +127,4 @@ class Table {
   Output& output_;
 };
 
-}  // namespace sg
+}  // namespace sg::cmd

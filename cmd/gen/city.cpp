@@ -4,22 +4,22 @@
 #include "cmd/gen/options.h"
 #include "cmd/gen/worlds.h"
 
-namespace sg {
+namespace sg::gen {
 
 Maker add_city(CLI::App& app) {
-  const auto world = std::make_shared<City>();
+  const auto world = std::make_shared<world::City>();
   add_count(app, "-n,--poses", world->poses, 1, "Poses, a metre apart");
   add_streets(app, world->streets);
   add_count(app, "-l,--landmarks", world->landmarks, 0, "In the city, seen or not; 0: one a block");
   add_chance(app, "--detection", world->detection, "Chance that a landmark in view is observed");
   add_triangulation(app, world->landmark);
-  add_word<Sensor>(app, "--sensor", world->sensor, "xy, bearing", "NAME",
-                   {{"xy", Sensor::xy}, {"bearing", Sensor::bearing}});
+  add_word<world::Sensor>(app, "--sensor", world->sensor, "xy, bearing", "NAME",
+                          {{"xy", world::Sensor::xy}, {"bearing", world::Sensor::bearing}});
   add_view(app, world->optics);
   add_length(app, "--noise-point", world->optics.point_noise, "xy: noise, metres");
   add_length(app, "--noise-bearing", world->optics.bearing_noise, "bearing: noise, radians");
   add_landmark_noise(app, *world);
-  return [world] { return writer(city(*world)); };
+  return [world] { return writer(world::city(*world)); };
 }
 
-}  // namespace sg
+}  // namespace sg::gen

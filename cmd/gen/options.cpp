@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace sg {
+namespace sg::gen {
 namespace {
 
 CLI::Validator number_check(bool zero) {
@@ -47,32 +47,32 @@ void add_sensor(CLI::App& app, SensorOptions& sensor) {
       ->check(CLI::IsMember({2, 3}).description(""))
       ->option_text("D [3]");
   app.add_option("--sensor", sensor.name, "mono, xyz, disparity; 2D: xy, bearing")
-      ->check(one_of({"mono", "xyz", "disparity", "xy", "bearing"}))
+      ->check(cmd::one_of({"mono", "xyz", "disparity", "xy", "bearing"}))
       ->option_text("NAME");
 }
 
-Sensor chosen(const SensorOptions& options) {
-  const std::map<std::string, Sensor> sensors{{"mono", Sensor::mono},
-                                              {"xyz", Sensor::xyz},
-                                              {"disparity", Sensor::disparity},
-                                              {"xy", Sensor::xy},
-                                              {"bearing", Sensor::bearing}};
-  if (options.name.empty()) return options.dim == 2 ? Sensor::xy : Sensor::mono;
-  const Sensor sensor = sensors.at(options.name);
-  if (planar(sensor) != (options.dim == 2)) {
-    throw usage_error("--sensor " + options.name + " belongs to --dim " +
-                      (planar(sensor) ? "2" : "3"));
+world::Sensor chosen(const SensorOptions& options) {
+  const std::map<std::string, world::Sensor> sensors{{"mono", world::Sensor::mono},
+                                                     {"xyz", world::Sensor::xyz},
+                                                     {"disparity", world::Sensor::disparity},
+                                                     {"xy", world::Sensor::xy},
+                                                     {"bearing", world::Sensor::bearing}};
+  if (options.name.empty()) return options.dim == 2 ? world::Sensor::xy : world::Sensor::mono;
+  const world::Sensor sensor = sensors.at(options.name);
+  if (world::planar(sensor) != (options.dim == 2)) {
+    throw text::usage_error("--sensor " + options.name + " belongs to --dim " +
+                            (world::planar(sensor) ? "2" : "3"));
   }
   return sensor;
 }
 
-void add_view(CLI::App& app, Optics& optics) {
+void add_view(CLI::App& app, world::Optics& optics) {
   add_length(app, "--range", optics.range, "Farthest point seen, metres");
   add_length(app, "--near", optics.near, "Nearest point seen, metres");
   add_length(app, "--fov", optics.view, "Field of view, degrees; below 180 for a camera");
 }
 
-void add_sensor_noise(CLI::App& app, Optics& optics) {
+void add_sensor_noise(CLI::App& app, world::Optics& optics) {
   add_length(app, "--focal", optics.focal, "mono, disparity: focal length, pixels");
   add_length(app, "--baseline", optics.baseline, "disparity: of the stereo pair, metres");
   add_length(app, "--noise-pixel", optics.pixel_noise, "mono, disparity: noise, pixels");
@@ -80,21 +80,21 @@ void add_sensor_noise(CLI::App& app, Optics& optics) {
   add_length(app, "--noise-bearing", optics.bearing_noise, "bearing: noise, radians");
 }
 
-void add_triangulation(CLI::App& app, Triangulation& landmark) {
+void add_triangulation(CLI::App& app, world::Triangulation& landmark) {
   add_count(app, "--min-obs", landmark.observations, 1, "Observations a landmark needs");
   add_size(app, "--parallax", landmark.parallax, "mono, bearing: degrees a landmark needs");
 }
 
-void add_streets(CLI::App& app, Streets& streets) {
+void add_streets(CLI::App& app, world::Streets& streets) {
   add_count(app, "--block", streets.block, 1, "Metres between crossings", 10'000);
   add_count(app, "--side", streets.side, 0, "Of the city, metres; 0: all is seen about twice",
             40'000);
 }
 
-void add_draw(CLI::App& app, Guess& guess, std::uint64_t& seed) {
-  add_word<Guess>(app, "--guess", guess, "Where poses start: odometry, truth", "WHERE",
-                  {{"odometry", Guess::odometry}, {"truth", Guess::truth}});
-  add_seed(app, seed, "Seed of all that is random");
+void add_draw(CLI::App& app, world::Guess& guess, std::uint64_t& seed) {
+  add_word<world::Guess>(app, "--guess", guess, "Where poses start: odometry, truth", "WHERE",
+                         {{"odometry", world::Guess::odometry}, {"truth", world::Guess::truth}});
+  cmd::add_seed(app, seed, "Seed of all that is random");
 }
 
-}  // namespace sg
+}  // namespace sg::gen

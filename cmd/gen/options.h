@@ -11,17 +11,17 @@
 #include "lib/world/landmark_graph.h"
 #include "lib/world/streets.h"
 
-namespace sg {
+namespace sg::gen {
 
 // Writes the graph of a world: its noisy copy, or the exact one.
-using Writer = std::function<void(Copy, Out&)>;
+using Writer = std::function<void(world::Copy, world::Out&)>;
 // To be called when the options have their values. Throws a usage Error where they do not agree.
 using Maker = std::function<Writer()>;
 
 template <class Graph>
 Writer writer(Graph graph) {
   const auto shared = std::make_shared<const Graph>(std::move(graph));
-  return [shared](Copy copy, Out& out) { write_graph(*shared, copy, out); };
+  return [shared](world::Copy copy, world::Out& out) { world::write_graph(*shared, copy, out); };
 }
 
 // Options of one number, whose default is what the value holds: above 0; of 0 or more; a whole one from
@@ -48,16 +48,16 @@ struct SensorOptions {
 };
 void add_sensor(CLI::App& app, SensorOptions& sensor);
 // Throws a usage Error for a sensor of the other dimension.
-Sensor chosen(const SensorOptions& options);
+world::Sensor chosen(const SensorOptions& options);
 
-void add_view(CLI::App& app, Optics& optics);
-void add_sensor_noise(CLI::App& app, Optics& optics);
-void add_triangulation(CLI::App& app, Triangulation& landmark);
+void add_view(CLI::App& app, world::Optics& optics);
+void add_sensor_noise(CLI::App& app, world::Optics& optics);
+void add_triangulation(CLI::App& app, world::Triangulation& landmark);
 
-void add_streets(CLI::App& app, Streets& streets);
+void add_streets(CLI::App& app, world::Streets& streets);
 
 // --guess and --seed, with which every world's options end.
-void add_draw(CLI::App& app, Guess& guess, std::uint64_t& seed);
+void add_draw(CLI::App& app, world::Guess& guess, std::uint64_t& seed);
 
 // The end of a world of landmarks: odometry's noise, the landmarks' and the draw.
 template <class World>
@@ -75,4 +75,4 @@ void add_edge_noise(CLI::App& app, World& world) {
   add_draw(app, world.guess, world.seed);
 }
 
-}  // namespace sg
+}  // namespace sg::gen

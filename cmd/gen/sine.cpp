@@ -4,10 +4,10 @@
 #include "cmd/gen/options.h"
 #include "cmd/gen/worlds.h"
 
-namespace sg {
+namespace sg::gen {
 
 Maker add_sine(CLI::App& app) {
-  const auto world = std::make_shared<Sine>();
+  const auto world = std::make_shared<world::Sine>();
   const auto sensor = std::make_shared<SensorOptions>();
   add_count(app, "-n,--poses", world->poses, 1, "Poses");
   add_length(app, "--step", world->step, "Metres along the path from pose to pose");
@@ -24,10 +24,10 @@ Maker add_sine(CLI::App& app) {
   add_landmark_noise(app, *world);
   return [world, sensor] {
     world->sensor = chosen(*sensor);
-    if (camera(world->sensor) && world->optics.view >= 180)
-      throw usage_error("a camera's --fov is below 180 degrees");
-    return writer(sine(*world));
+    if (world::camera(world->sensor) && world->optics.view >= 180)
+      throw text::usage_error("a camera's --fov is below 180 degrees");
+    return writer(world::sine(*world));
   };
 }
 
-}  // namespace sg
+}  // namespace sg::gen

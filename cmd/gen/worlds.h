@@ -4,7 +4,7 @@
 
 #include "cmd/gen/options.h"
 
-namespace sg {
+namespace sg::gen {
 
 Maker add_sine(CLI::App& app);
 Maker add_worst(CLI::App& app);
@@ -30,4 +30,4 @@ constexpr World worlds[] = {
     {"grid3d", "A walk in a cubic grid, with loop closures", add_grid3d},
 };
 
-}  // namespace sg
+}  // namespace sg::gen

@@ -4,10 +4,10 @@
 #include "cmd/gen/options.h"
 #include "cmd/gen/worlds.h"
 
-namespace sg {
+namespace sg::gen {
 
 Maker add_worst(CLI::App& app) {
-  const auto world = std::make_shared<Worst>();
+  const auto world = std::make_shared<world::Worst>();
   const auto sensor = std::make_shared<SensorOptions>();
   add_count(app, "-n,--poses", world->poses, 1, "Poses");
   add_count(app, "-l,--landmarks", world->landmarks, 1, "Landmarks, each seen from every pose");
@@ -17,8 +17,8 @@ Maker add_worst(CLI::App& app) {
   add_landmark_noise(app, *world);
   return [world, sensor] {
     world->sensor = chosen(*sensor);
-    return writer(worst(*world));
+    return writer(world::worst(*world));
   };
 }
 
-}  // namespace sg
+}  // namespace sg::gen

@@ -6,7 +6,7 @@
 
 #include "lib/elim/score.h"
 
-namespace sg {
+namespace sg::plot {
 namespace {
 
 constexpr double margin = 24;
@@ -44,14 +44,14 @@ Color heat(double value) {
           mix(stops[k].blue, stops[k + 1].blue)};
 }
 
-Costs costs(const GraphPattern& variables, const Order& order, std::string name) {
-  const Symbolic symbolic = sg::symbolic(variables.pattern, order);
+Costs costs(const graph::GraphPattern& variables, const graph::Order& order, std::string name) {
+  const elim::Symbolic symbolic = elim::symbolic(variables.pattern, order);
   Costs result;
   result.order = std::move(name);
   result.vertex.assign(variables.vertex_variable.size(), 0);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const Index v = variables.variable_vertex[order[k]];
-    result.vertex[v] = to_double(elimination_cost(symbolic.dim[k], symbolic.count[k]));
+    result.vertex[v] = elim::to_double(elim::elimination_cost(symbolic.dim[k], symbolic.count[k]));
     result.total += result.vertex[v];
     result.largest = std::max(result.largest, result.vertex[v]);
   }
@@ -93,4 +93,4 @@ void draw_cost_legend(cairo_t* page, const PageSize& size, const Costs& costs) {
   }
 }
 
-}  // namespace sg
+}  // namespace sg::plot

@@ -8,7 +8,7 @@
 #include "cmd/plot/scenes.h"
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::plot {
 
 // From light yellow (0) by orange and red to dark red (1).
 Color heat(double value);
@@ -21,7 +21,7 @@ struct Costs {
   double total = 0;
   double largest = 0;
 };
-Costs costs(const GraphPattern& variables, const Order& order, std::string name);
+Costs costs(const graph::GraphPattern& variables, const graph::Order& order, std::string name);
 
 // The fewest variables that hold half of the cost.
 Index half(const Costs& costs);
@@ -29,4 +29,4 @@ Index half(const Costs& costs);
 // What the colours say: EC and its concentration at the top, the scale at the lower right corner.
 void draw_cost_legend(cairo_t* page, const PageSize& size, const Costs& costs);
 
-}  // namespace sg
+}  // namespace sg::plot

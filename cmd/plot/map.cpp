@@ -10,7 +10,7 @@
 #include "lib/graph/replay.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::plot {
 namespace {
 
 constexpr double margin = 24;
@@ -41,8 +41,8 @@ Projection fit(const std::vector<Point>& points, const PageSize& size) {
   return {scale, {left->x + width / 2, low->y + height / 2}, {size.width / 2, size.height / 2}};
 }
 
-void draw_edges(cairo_t* page, const Graph& graph, const std::vector<EdgeRole>& roles,
-                EdgeRole role, const std::vector<Point>& at) {
+void draw_edges(cairo_t* page, const Graph& graph, const std::vector<graph::EdgeRole>& roles,
+                graph::EdgeRole role, const std::vector<Point>& at) {
   for (Index e = 0; e < graph.edges(); ++e) {
     if (roles[e] != role) continue;
     const auto ends = graph.edge(e);
@@ -54,7 +54,7 @@ void draw_edges(cairo_t* page, const Graph& graph, const std::vector<EdgeRole>& 
   cairo_stroke(page);
 }
 
-void draw_dots(cairo_t* page, const Graph& graph, Role role, const std::vector<Point>& at) {
+void draw_dots(cairo_t* page, const Graph& graph, graph::Role role, const std::vector<Point>& at) {
   cairo_set_line_cap(page, CAIRO_LINE_CAP_ROUND);
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (graph.role(v) != role) continue;
@@ -92,27 +92,28 @@ void draw_scale_bar(cairo_t* page, const PageSize& size, double scale) {
 }  // namespace
 
 std::vector<std::array<double, 3>> positions(const Graph& graph) {
-  Problem problem;
-  Values values;
+  factor::Problem problem;
+  factor::Values values;
   if (graph.edges_only) {
-    problem = make_problem(graph);
-    values = initial_values(problem);
+    problem = factor::make_problem(graph);
+    values = factor::initial_values(problem);
   }
   std::vector<std::array<double, 3>> result(graph.vertices(), {0, 0, 0});
   std::vector<double> numbers;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    const VertexType& type = graph.type_of_vertex(v);
-    const int coordinates = facts(type.space).position;
+    const graph::VertexType& type = graph.type_of_vertex(v);
+    const int coordinates = graph::facts(type.space).position;
     if (coordinates == 0)
-      throw error_at(graph, graph.vertex_line[v], type.tag + " has no place on a map");
+      throw graph::error_at(graph, graph.vertex_line[v], type.tag + " has no place on a map");
     if (graph.edges_only) {
-      numbers = estimate_numbers(problem, values, v);
+      numbers = factor::estimate_numbers(problem, values, v);
     } else {
-      vertex_numbers(graph, v, numbers);
+      graph::vertex_numbers(graph, v, numbers);
     }
     std::copy_n(numbers.begin(), coordinates, result[v].begin());
     for (const double x : result[v]) {
-      if (!std::isfinite(x)) throw error_at(graph, graph.vertex_line[v], "no finite position");
+      if (!std::isfinite(x))
+        throw graph::error_at(graph, graph.vertex_line[v], "no finite position");
     }
   }
   return result;
@@ -140,31 +141,32 @@ Placed placed(const Graph& graph, const std::array<int, 2>& axes, const PageSize
 void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
               const std::array<int, 2>& axes) {
   const auto [points, scale] = placed(graph, axes, size);
-  const std::vector<EdgeRole> roles = edge_roles(graph, pose_index(graph));
+  const std::vector<graph::EdgeRole> roles = graph::edge_roles(graph, graph::pose_index(graph));
   set_color(page, faint_color, 0.35);
   cairo_set_line_width(page, 0.3);
-  draw_edges(page, graph, roles, EdgeRole::observation, points);
+  draw_edges(page, graph, roles, graph::EdgeRole::observation, points);
   set_color(page, loop_color, 0.7);
   cairo_set_line_width(page, 0.5);
-  draw_edges(page, graph, roles, EdgeRole::loop_closure, points);
+  draw_edges(page, graph, roles, graph::EdgeRole::loop_closure, points);
   set_color(page, path_color);
   cairo_set_line_width(page, 0.8);
-  draw_edges(page, graph, roles, EdgeRole::odometry, points);
+  draw_edges(page, graph, roles, graph::EdgeRole::odometry, points);
   cairo_set_line_width(page, 1.6);
-  draw_dots(page, graph, Role::pose, points);
+  draw_dots(page, graph, graph::Role::pose, points);
   set_color(page, landmark_color);
   cairo_set_line_width(page, 2.4);
-  draw_dots(page, graph, Role::landmark, points);
+  draw_dots(page, graph, graph::Role::landmark, points);
   draw_scale_bar(page, size, scale);
 }
 
 void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs) {
   const auto [points, scale] = placed(graph, axes, size);
-  const std::vector<EdgeRole> roles = edge_roles(graph, pose_index(graph));
+  const std::vector<graph::EdgeRole> roles = graph::edge_roles(graph, graph::pose_index(graph));
   set_color(page, faint_color, 0.25);
   cairo_set_line_width(page, 0.4);
-  for (const EdgeRole role : {EdgeRole::observation, EdgeRole::loop_closure, EdgeRole::odometry}) {
+  for (const graph::EdgeRole role :
+       {graph::EdgeRole::observation, graph::EdgeRole::loop_closure, graph::EdgeRole::odometry}) {
     draw_edges(page, graph, roles, role, points);
   }
   for (const Index v : costs.ascending) {
@@ -177,4 +179,4 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
   draw_cost_legend(page, size, costs);
 }
 
-}  // namespace sg
+}  // namespace sg::plot

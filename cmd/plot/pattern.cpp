@@ -5,7 +5,7 @@
 #include "cmd/plot/scenes.h"
 #include "lib/elim/structure.h"
 
-namespace sg {
+namespace sg::plot {
 namespace {
 
 constexpr double margin = 12;
@@ -40,7 +40,7 @@ void mark(Raster& raster, Index row, Index column, Cell what) {
   }
 }
 
-Raster raster_of(const OrderedPattern& pattern) {
+Raster raster_of(const elim::OrderedPattern& pattern) {
   Raster raster = empty_raster(pattern.dim);
   for (Index r = 0; r < pattern.rows.size(); ++r) {
     for (const Index i : pattern.rows[r]) {
@@ -49,11 +49,11 @@ Raster raster_of(const OrderedPattern& pattern) {
       }
     }
   }
-  visit_separators(pattern, elimination_tree(pattern),
-                   [&](Index k, std::span<const Index> separator) {
-                     mark(raster, k, k, Cell::system);
-                     for (const Index j : separator) mark(raster, k, j, Cell::fill);
-                   });
+  elim::visit_separators(pattern, elim::elimination_tree(pattern),
+                         [&](Index k, std::span<const Index> separator) {
+                           mark(raster, k, k, Cell::system);
+                           for (const Index j : separator) mark(raster, k, j, Cell::fill);
+                         });
   return raster;
 }
 
@@ -76,13 +76,14 @@ void draw_cells(cairo_t* page, const Raster& raster, Cell what, double width) {
 
 }  // namespace
 
-void draw_pattern(cairo_t* page, const PageSize& size, const Pattern& pattern, const Order& order) {
+void draw_pattern(cairo_t* page, const PageSize& size, const graph::Pattern& pattern,
+                  const graph::Order& order) {
   const double side = std::min(size.width, size.height) - 2 * margin;
   set_color(page, faint_color);
   cairo_set_line_width(page, 0.5);
   cairo_rectangle(page, margin, margin, side, side);
   cairo_stroke(page);
-  const Raster raster = raster_of(ordered(pattern, order));
+  const Raster raster = raster_of(elim::ordered(pattern, order));
   if (raster.cells == 0) return;
   const double width = side / static_cast<double>(raster.cells);
   set_color(page, loop_color);
@@ -91,4 +92,4 @@ void draw_pattern(cairo_t* page, const PageSize& size, const Pattern& pattern, c
   draw_cells(page, raster, Cell::system, width);
 }
 
-}  // namespace sg
+}  // namespace sg::plot

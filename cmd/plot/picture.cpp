@@ -7,7 +7,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::plot {
 namespace {
 
 using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
@@ -37,7 +37,7 @@ cairo_surface_t* new_surface(PictureFormat format, double width, double height, 
 
 void check(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw computation_error(std::string("cannot draw: ") + cairo_status_to_string(status));
+    throw text::computation_error(std::string("cannot draw: ") + cairo_status_to_string(status));
   }
 }
 
@@ -47,7 +47,7 @@ PictureFormat picture_format(const std::string& path) {
   if (path.empty() || path == "-" || path.ends_with(".svg")) return PictureFormat::svg;
   if (path.ends_with(".png")) return PictureFormat::png;
   if (path.ends_with(".pdf")) return PictureFormat::pdf;
-  throw usage_error("a picture's name ends in .svg, .png or .pdf; not so '" + path + "'");
+  throw text::usage_error("a picture's name ends in .svg, .png or .pdf; not so '" + path + "'");
 }
 
 std::string picture(PictureFormat format, double width, double height,
@@ -68,4 +68,4 @@ std::string picture(PictureFormat format, double width, double height,
   return text;
 }
 
-}  // namespace sg
+}  // namespace sg::plot

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace sg {
+namespace sg::plot {
 
 enum class PictureFormat { svg, png, pdf };
 
@@ -32,4 +32,4 @@ constexpr Color loop_color{0.85, 0.45, 0.10};
 constexpr Color landmark_color{0.15, 0.50, 0.25};
 constexpr Color faint_color{0.60, 0.60, 0.60};
 
-}  // namespace sg
+}  // namespace sg::plot

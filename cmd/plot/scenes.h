@@ -10,7 +10,7 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::plot {
 
 struct PageSize {
   double width;
@@ -34,10 +34,11 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs);
 
 // R in its order, rows and columns in scalars: what A^T A has in blue, fill in orange.
-void draw_pattern(cairo_t* page, const PageSize& size, const Pattern& pattern, const Order& order);
+void draw_pattern(cairo_t* page, const PageSize& size, const graph::Pattern& pattern,
+                  const graph::Order& order);
 
 // The Bayes tree, roots on top: a circle for every clique, its area in proportion to the clique's
 // dimension.
-void draw_tree(cairo_t* page, const PageSize& size, const Symbolic& symbolic);
+void draw_tree(cairo_t* page, const PageSize& size, const elim::Symbolic& symbolic);
 
-}  // namespace sg
+}  // namespace sg::plot

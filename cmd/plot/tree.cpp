@@ -6,7 +6,7 @@
 #include "lib/elim/bayes_tree.h"
 #include "lib/graph/lists.h"
 
-namespace sg {
+namespace sg::plot {
 namespace {
 
 constexpr double margin = 24;
@@ -21,8 +21,8 @@ struct Layout {
 
 // Leaves side by side in the order of a walk through the tree, every other clique above the middle
 // of its children.
-Layout layout(const BayesTree& tree) {
-  const Lists<> children = grouped(tree.parent, tree.cliques());
+Layout layout(const elim::BayesTree& tree) {
+  const graph::Lists<> children = graph::grouped(tree.parent, tree.cliques());
   Layout result;
   result.across.assign(tree.cliques(), 0);
   result.down.assign(tree.cliques(), 0);
@@ -67,7 +67,7 @@ Places places(const Layout& layout, const PageSize& size) {
   return result;
 }
 
-void draw_branches(cairo_t* page, const BayesTree& tree, const std::vector<Place>& at) {
+void draw_branches(cairo_t* page, const elim::BayesTree& tree, const std::vector<Place>& at) {
   set_color(page, faint_color);
   cairo_set_line_width(page, 0.5);
   for (Index c = 0; c < tree.cliques(); ++c) {
@@ -80,8 +80,8 @@ void draw_branches(cairo_t* page, const BayesTree& tree, const std::vector<Place
 
 }  // namespace
 
-void draw_tree(cairo_t* page, const PageSize& size, const Symbolic& symbolic) {
-  const BayesTree tree = bayes_tree(symbolic);
+void draw_tree(cairo_t* page, const PageSize& size, const elim::Symbolic& symbolic) {
+  const elim::BayesTree tree = elim::bayes_tree(symbolic);
   if (tree.cliques() == 0) return;
   const Places place = places(layout(tree), size);
   draw_branches(page, tree, place.at);
@@ -96,4 +96,4 @@ void draw_tree(cairo_t* page, const PageSize& size, const Symbolic& symbolic) {
   }
 }
 
-}  // namespace sg
+}  // namespace sg::plot

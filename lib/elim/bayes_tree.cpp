@@ -5,11 +5,11 @@
 #include <cassert>
 #include <span>
 
-namespace sg {
+namespace sg::elim {
 namespace {
 
-Lists<> reversed(const Lists<>& lists) {
-  Lists<> result;
+graph::Lists<> reversed(const graph::Lists<>& lists) {
+  graph::Lists<> result;
   result.begin.reserve(lists.begin.size());
   result.items.reserve(lists.items.size());
   for (Index k = lists.size() - 1; k >= 0; --k) result.add(lists[k]);
@@ -46,21 +46,21 @@ BayesTree bayes_tree(const Symbolic& symbolic) {
   return tree;
 }
 
-Lists<> clique_frontals(const BayesTree& tree) {
-  return grouped(tree.clique, tree.cliques());
+graph::Lists<> clique_frontals(const BayesTree& tree) {
+  return graph::grouped(tree.clique, tree.cliques());
 }
 
-Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
+graph::Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree& tree) {
   const Index cliques = tree.cliques();
   assert(tree.clique.size() == pattern.dim.size());
-  const Lists<> children = grouped(tree.parent, cliques);
+  const graph::Lists<> children = graph::grouped(tree.parent, cliques);
   std::vector<Index> row_clique;
   for (Index r = 0; r < pattern.rows.size(); ++r)
     row_clique.push_back(tree.clique[pattern.rows[r].front()]);
-  const Lists<> rows = grouped(row_clique, cliques);
+  const graph::Lists<> rows = graph::grouped(row_clique, cliques);
 
   // From the leaves up: list c belongs to clique (cliques - 1 - c) until the end.
-  Lists<> result;
+  graph::Lists<> result;
   std::vector<Index> seen(pattern.variables(), -1);
   for (Index c = cliques - 1; c >= 0; --c) {
     const auto take = [&](std::span<const Index> positions) {
@@ -89,4 +89,4 @@ Wide elimination_complexity(const BayesTree& tree) {
   return ec;
 }
 
-}  // namespace sg
+}  // namespace sg::elim

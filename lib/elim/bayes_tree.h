@@ -12,7 +12,7 @@
 #include "lib/elim/score.h"
 #include "lib/graph/lists.h"
 
-namespace sg {
+namespace sg::elim {
 
 struct BayesTree {
   std::vector<Index> clique;  // of every position
@@ -27,9 +27,9 @@ BayesTree bayes_tree(const Symbolic& symbolic);
 Wide elimination_complexity(const BayesTree& tree);
 
 // The positions of every clique's frontal variables, ascending.
-Lists<> clique_frontals(const BayesTree& tree);
+graph::Lists<> clique_frontals(const BayesTree& tree);
 // The positions of every clique's separator, in no order. Unlike the dimensions above they take the
 // space of all cliques together.
-Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree& tree);
+graph::Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree& tree);
 
-}  // namespace sg
+}  // namespace sg::elim

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace sg {
+namespace sg::elim {
 namespace {
 
 // All that the counting looks at, in postorder: neighbours in the tree are then neighbours in
@@ -33,7 +33,7 @@ Postordered postordered(const Links& links, const std::vector<int>& dim,
     post.first[j] = j - size[k] + 1;
     post.dim[j] = dim[k];
   }
-  post.links = counting_sort<Link>(n + 1, [&](const auto& put) {
+  post.links = graph::counting_sort<Link>(n + 1, [&](const auto& put) {
                  for (const Link& link : links.list) {
                    put(place[link.lower], Link{place[link.lower], place[link.upper]});
                  }
@@ -88,4 +88,4 @@ std::vector<std::int64_t> column_counts(const Links& links, const std::vector<in
   return count;
 }
 
-}  // namespace sg
+}  // namespace sg::elim

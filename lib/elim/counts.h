@@ -11,7 +11,7 @@
 
 #include "lib/elim/etree.h"
 
-namespace sg {
+namespace sg::elim {
 
 // For every position k: d_f(k) + d_s(k), the scalar dimension of the variable and its separator
 // together. dim and parent by position.
@@ -22,4 +22,4 @@ inline std::vector<std::int64_t> column_counts(const OrderedPattern& pattern,
   return column_counts(links(pattern), pattern.dim, parent);
 }
 
-}  // namespace sg
+}  // namespace sg::elim

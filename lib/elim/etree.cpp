@@ -4,10 +4,10 @@
 #include <cassert>
 #include <stdexcept>
 
-namespace sg {
+namespace sg::elim {
 namespace {
 
-std::vector<Index> positions(const Order& order, Index n) {
+std::vector<Index> positions(const graph::Order& order, Index n) {
   std::vector<Index> position(n, -1);
   if (static_cast<Index>(order.size()) != n)
     throw std::invalid_argument("the order has the wrong length");
@@ -31,7 +31,7 @@ std::vector<Index> positions(const Order& order, Index n) {
 
 }  // namespace
 
-OrderedPattern ordered(const Pattern& pattern, const Order& order) {
+OrderedPattern ordered(const graph::Pattern& pattern, const graph::Order& order) {
   const Index n = pattern.variables();
   const std::vector<Index> position = positions(order, n);
   OrderedPattern result;
@@ -44,7 +44,7 @@ OrderedPattern ordered(const Pattern& pattern, const Order& order) {
       if (first[r] < 0 || position[j] < first[r]) first[r] = position[j];
     }
   }
-  const Lists<> by_first = grouped(first, n);
+  const graph::Lists<> by_first = graph::grouped(first, n);
   result.rows.begin.reserve(by_first.items.size() + 1);
   result.rows.items.reserve(pattern.rows.items.size());
   for (Index r : by_first.items) {
@@ -78,14 +78,14 @@ Links links_of(const auto& pattern, const auto& position) {
   list.reserve(pattern.rows.size());
   for (Index r = 0; r < pattern.rows.size(); ++r) add_links(pattern.rows[r], position, list);
   const Index n = pattern.variables();
-  return {n, counting_sort<Link>(n, [&](const auto& put) {
+  return {n, graph::counting_sort<Link>(n, [&](const auto& put) {
                for (const Link& link : list) put(link.upper, link);
              }).items};
 }
 
 }  // namespace
 
-Links links(const Pattern& pattern, const Order& order) {
+Links links(const graph::Pattern& pattern, const graph::Order& order) {
   const std::vector<Index> position = positions(order, pattern.variables());
   return links_of(pattern, [&](Index j) { return position[j]; });
 }
@@ -159,4 +159,4 @@ Index height(const std::vector<Index>& parent) {
   return deepest;
 }
 
-}  // namespace sg
+}  // namespace sg::elim

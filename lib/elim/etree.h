@@ -13,18 +13,18 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::elim {
 
 // The pattern with variables renumbered by position: variable order[k] becomes k. Rows hold
 // ascending positions, and the rows are grouped by the position of their first variable (Davis's
 // "head/next" lists, laid flat).
 struct OrderedPattern {
   std::vector<int> dim;  // n
-  Lists<> rows;          // those with at least one variable
+  graph::Lists<> rows;   // those with at least one variable
   Index variables() const { return static_cast<Index>(dim.size()); }
 };
 // Throws std::invalid_argument if `order` is not a permutation of the pattern's variables.
-OrderedPattern ordered(const Pattern& pattern, const Order& order);
+OrderedPattern ordered(const graph::Pattern& pattern, const graph::Order& order);
 
 // What tree and counts need of the rows: for every row of A, an edge from its first position to
 // each of its others. Eliminating the first joins the others anyhow, so that this graph, which is
@@ -38,7 +38,7 @@ struct Links {
   std::vector<Link> list;  // by ascending upper end
 };
 // Throws as ordered() does, which is the slower way to the same.
-Links links(const Pattern& pattern, const Order& order);
+Links links(const graph::Pattern& pattern, const graph::Order& order);
 Links links(const OrderedPattern& pattern);
 
 // parent[k] of every position, -1 at a root.
@@ -60,4 +60,4 @@ std::vector<Index> subtree_sizes(const std::vector<Index>& parent);
 // required.
 Index height(const std::vector<Index>& parent);
 
-}  // namespace sg
+}  // namespace sg::elim

@@ -5,7 +5,7 @@
 
 #include "lib/elim/etree.h"
 
-namespace sg {
+namespace sg::elim {
 namespace {
 
 // Bit j of row i, j > i: positions i and j are neighbours. Of an edge only the upper half is kept,
@@ -56,7 +56,8 @@ UpperMatrix adjacency_matrix(const OrderedPattern& pattern) {
 
 }  // namespace
 
-std::vector<EliminationStep> node_elimination(const Pattern& pattern, const Order& order) {
+std::vector<EliminationStep> node_elimination(const graph::Pattern& pattern,
+                                              const graph::Order& order) {
   UpperMatrix adjacent = adjacency_matrix(ordered(pattern, order));
   std::vector<EliminationStep> steps;
   steps.reserve(order.size());
@@ -71,4 +72,4 @@ std::vector<EliminationStep> node_elimination(const Pattern& pattern, const Orde
   return steps;
 }
 
-}  // namespace sg
+}  // namespace sg::elim

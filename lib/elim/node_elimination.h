@@ -11,7 +11,7 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::elim {
 
 struct EliminationStep {
   Index variable;
@@ -21,6 +21,7 @@ struct EliminationStep {
 };
 // A step for every variable, in the order's order. Variables keep their numbers in the pattern.
 // Throws std::invalid_argument if `order` is not a permutation of the pattern's variables.
-std::vector<EliminationStep> node_elimination(const Pattern& pattern, const Order& order);
+std::vector<EliminationStep> node_elimination(const graph::Pattern& pattern,
+                                              const graph::Order& order);
 
-}  // namespace sg
+}  // namespace sg::elim

@@ -1,13 +1,13 @@
 #include "lib/elim/predict.h"
 
-namespace sg {
+namespace sg::elim {
 
 Sizes sizes(const Graph& graph) {
   Sizes sizes;
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (graph.fixed[v]) continue;
-    if (graph.role(v) == Role::pose) sizes.poses += graph.dim(v);
-    if (graph.role(v) == Role::landmark) sizes.landmarks += graph.dim(v);
+    if (graph.role(v) == graph::Role::pose) sizes.poses += graph.dim(v);
+    if (graph.role(v) == graph::Role::landmark) sizes.landmarks += graph.dim(v);
   }
   return sizes;
 }
@@ -26,4 +26,4 @@ double predict_decimation(const Sizes& sizes, double rate) {
   return (sizes.landmarks + 9 * sizes.poses) * part * part;
 }
 
-}  // namespace sg
+}  // namespace sg::elim

@@ -14,7 +14,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::elim {
 
 // Scalar dimensions: X and L. Only these products enter.
 struct Sizes {
@@ -28,4 +28,4 @@ double predict_full(const Sizes& sizes);
 double predict_keyframes(const Sizes& sizes, double rate);
 double predict_decimation(const Sizes& sizes, double rate);
 
-}  // namespace sg
+}  // namespace sg::elim

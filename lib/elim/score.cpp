@@ -5,7 +5,7 @@
 #include "lib/elim/bayes_tree.h"
 #include "lib/elim/counts.h"
 
-namespace sg {
+namespace sg::elim {
 
 std::string to_string(Wide value) {
   std::string digits;
@@ -21,7 +21,7 @@ double to_double(Wide value) {
   return static_cast<double>(value);
 }
 
-Symbolic symbolic(const Pattern& pattern, const Order& order) {
+Symbolic symbolic(const graph::Pattern& pattern, const graph::Order& order) {
   const Links by_position = links(pattern, order);
   std::vector<int> dim(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) dim[k] = pattern.dim[order[k]];
@@ -37,7 +37,7 @@ Wide elimination_complexity(const Symbolic& symbolic) {
   return ec;
 }
 
-Wide elimination_complexity(const Pattern& pattern, const Order& order) {
+Wide elimination_complexity(const graph::Pattern& pattern, const graph::Order& order) {
   return elimination_complexity(symbolic(pattern, order));
 }
 
@@ -67,8 +67,8 @@ Score score(const Symbolic& symbolic) {
   return score;
 }
 
-Wide system_nnz(const Pattern& pattern) {
-  const Lists<> column = columns(pattern);
+Wide system_nnz(const graph::Pattern& pattern) {
+  const graph::Lists<> column = graph::columns(pattern);
   std::vector<Index> seen(pattern.variables(), -1);
   Wide twice_off_diagonal = 0;
   Wide diagonal = 0;
@@ -86,4 +86,4 @@ Wide system_nnz(const Pattern& pattern) {
   return diagonal + twice_off_diagonal / 2;
 }
 
-}  // namespace sg
+}  // namespace sg::elim

@@ -8,7 +8,7 @@
 
 #include "lib/elim/etree.h"
 
-namespace sg {
+namespace sg::elim {
 
 // Sums of cubes outgrow 64 bits from some millions of scalars on.
 __extension__ typedef unsigned __int128 Wide;
@@ -21,7 +21,7 @@ struct Symbolic {
   std::vector<Index> parent;        // elimination tree
   std::vector<std::int64_t> count;  // d_f + d_s by position
 };
-Symbolic symbolic(const Pattern& pattern, const Order& order);
+Symbolic symbolic(const graph::Pattern& pattern, const graph::Order& order);
 
 // d_f (d_f + d_s)^2 of one variable or one clique.
 inline Wide elimination_cost(std::int64_t frontal, std::int64_t total) {
@@ -44,9 +44,9 @@ Score column_score(const Symbolic& symbolic);
 
 // EC alone.
 Wide elimination_complexity(const Symbolic& symbolic);
-Wide elimination_complexity(const Pattern& pattern, const Order& order);
+Wide elimination_complexity(const graph::Pattern& pattern, const graph::Order& order);
 
 // Scalar entries of the upper triangle of A^T A, diagonal included: fill = Score::nnz - this.
-Wide system_nnz(const Pattern& pattern);
+Wide system_nnz(const graph::Pattern& pattern);
 
-}  // namespace sg
+}  // namespace sg::elim

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sg {
+namespace sg::elim {
 
 void visit_separators(const OrderedPattern& pattern, const std::vector<Index>& parent,
                       const VisitSeparator& visit) {
@@ -29,4 +29,4 @@ void visit_separators(const OrderedPattern& pattern, const std::vector<Index>& p
   }
 }
 
-}  // namespace sg
+}  // namespace sg::elim

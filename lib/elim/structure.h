@@ -8,7 +8,7 @@
 
 #include "lib/elim/etree.h"
 
-namespace sg {
+namespace sg::elim {
 
 // Calls visit(k, separator) for k = 0, 1, ..., the separator's positions ascending. A separator is
 // what the factors of k and the separators of its children in the tree name, k aside (Davis, Direct
@@ -17,4 +17,4 @@ using VisitSeparator = std::function<void(Index k, std::span<const Index> separa
 void visit_separators(const OrderedPattern& pattern, const std::vector<Index>& parent,
                       const VisitSeparator& visit);
 
-}  // namespace sg
+}  // namespace sg::elim

@@ -12,41 +12,42 @@
 #include "lib/factor/model.h"
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 
 // g2o takes sin(angle) for the angle where cos(angle) > 0.99999, and its chi-square is the number
 // to give.
 inline Eigen::Vector3d g2o_log_so3(const Eigen::Quaterniond& q) {
   const double cosine = 1 - 2 * q.vec().squaredNorm();
   if (cosine > 0.99999) return 2 * q.w() * q.vec();
-  return log_so3(q);
+  return geometry::log_so3(q);
 }
 
 template <>
-struct EdgeModel<EdgeTag::expmap> : Registered<EdgeTag::expmap> {
+struct EdgeModel<graph::EdgeTag::expmap> : Registered<graph::EdgeTag::expmap> {
   static constexpr int constants = 7;
 
   static bool prepare(const double* z, const double* const*, double* c) {
-    return from_file(Space::expmap, z, c);
+    return from_file(graph::Space::expmap, z, c);
   }
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    const SE3 back = inverse(se3(x[1]));
-    const SE3 to = compose(back, se3(c));
-    const SE3 d = compose(to, se3(x[0]));
+    const SE3 back = inverse(geometry::se3(x[1]));
+    const SE3 to = compose(back, geometry::se3(c));
+    const SE3 d = compose(to, geometry::se3(x[0]));
     const Eigen::Vector3d w = g2o_log_so3(d.q);
     Vector6d error;
-    error << inverse_left_jacobian_so3(w) * d.t, w;
-    Eigen::Map<Vector6d>{e} = swapped(error);
+    error << geometry::inverse_left_jacobian_so3(w) * d.t, w;
+    Eigen::Map<Vector6d>{e} = geometry::swapped(error);
     if (!J) return;
-    const Matrix6d slope = inverse_left_jacobian(error);
-    Eigen::Map<Matrix6d>{J[0]} = swapped(Matrix6d(slope * adjoint(to)));
-    Eigen::Map<Matrix6d>{J[1]} = swapped(Matrix6d(-slope * adjoint(back)));
+    const Matrix6d slope = geometry::inverse_left_jacobian(error);
+    Eigen::Map<Matrix6d>{J[0]} = geometry::swapped(Matrix6d(slope * adjoint(to)));
+    Eigen::Map<Matrix6d>{J[1]} = geometry::swapped(Matrix6d(-slope * adjoint(back)));
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE3 z = se3(c);
-    set_se3(end == 1 ? compose(z, se3(x[0])) : compose(inverse(z), se3(x[1])), out);
+    const SE3 z = geometry::se3(c);
+    set_se3(end == 1 ? compose(z, geometry::se3(x[0])) : compose(inverse(z), geometry::se3(x[1])),
+            out);
     return true;
   }
 };
@@ -62,8 +63,8 @@ template <int dim>
 void project(const double* const* x, const double* z, const Pinhole& camera, double* e,
              double* const* J) {
   using Slope = Eigen::Matrix<double, dim, 3>;
-  const SE3 pose = se3(x[1]);
-  const Eigen::Vector3d seen = act(pose, vector3(x[0]));
+  const SE3 pose = geometry::se3(x[1]);
+  const Eigen::Vector3d seen = act(pose, geometry::vector3(x[0]));
   const double w = seen[2], u = seen[0] / w, v = seen[1] / w;
   const Eigen::Vector3d pixel(camera.fx * u + camera.cx, camera.fy * v + camera.cy,
                               camera.fx * u + camera.cx - camera.shift / w);
@@ -75,7 +76,7 @@ void project(const double* const* x, const double* z, const Pinhole& camera, dou
   const Slope slope = full.topRows<dim>();
   Eigen::Map<Slope>{J[0]} = slope * pose.q.toRotationMatrix();
   Eigen::Map<Eigen::Matrix<double, dim, 6>> pose_jacobian(J[1]);
-  pose_jacobian.template leftCols<3>() = -slope * skew(seen);
+  pose_jacobian.template leftCols<3>() = -slope * geometry::skew(seen);
   pose_jacobian.template rightCols<3>() = slope;
 }
 
@@ -105,7 +106,7 @@ inline Ray pixel_ray(const SE3& pose, const double* z, const Pinhole& camera) {
 
 // c = z, then the camera. Camera::of makes it of the numbers behind the information and of the
 // parameters.
-template <EdgeTag type, class Camera>
+template <graph::EdgeTag type, class Camera>
 struct PixelEdge : Registered<type> {
   static constexpr int dim = Registered<type>::dim, constants = dim + 5;
 
@@ -129,12 +130,12 @@ struct PixelEdge : Registered<type> {
     if (dim < 3 || end != 0) return false;
     const double w = camera(c).shift / (c[0] - c[dim - 1]);
     if (!(w > 0) || !std::isfinite(w)) return false;
-    Eigen::Map<Eigen::Vector3d>{out} = behind(se3(x[1]), c, camera(c), w);
+    Eigen::Map<Eigen::Vector3d>{out} = behind(geometry::se3(x[1]), c, camera(c), w);
     return true;
   }
 
   static Ray rays(const double* const* x, const double* c) {
-    return pixel_ray(se3(x[1]), c, camera(c));
+    return pixel_ray(geometry::se3(x[1]), c, camera(c));
   }
 };
 
@@ -155,14 +156,16 @@ struct StereoAtTheEnd {
 };
 
 template <>
-struct EdgeModel<EdgeTag::project_xyz2uv> : PixelEdge<EdgeTag::project_xyz2uv, CameraParameter> {};
+struct EdgeModel<graph::EdgeTag::project_xyz2uv>
+    : PixelEdge<graph::EdgeTag::project_xyz2uv, CameraParameter> {};
 template <>
-struct EdgeModel<EdgeTag::project_xyz2uvu> : PixelEdge<EdgeTag::project_xyz2uvu, CameraParameter> {
-};
+struct EdgeModel<graph::EdgeTag::project_xyz2uvu>
+    : PixelEdge<graph::EdgeTag::project_xyz2uvu, CameraParameter> {};
 template <>
-struct EdgeModel<EdgeTag::se3_project_xyz> : PixelEdge<EdgeTag::se3_project_xyz, MonoAtTheEnd> {};
+struct EdgeModel<graph::EdgeTag::se3_project_xyz>
+    : PixelEdge<graph::EdgeTag::se3_project_xyz, MonoAtTheEnd> {};
 template <>
-struct EdgeModel<EdgeTag::stereo_se3_project_xyz>
-    : PixelEdge<EdgeTag::stereo_se3_project_xyz, StereoAtTheEnd> {};
+struct EdgeModel<graph::EdgeTag::stereo_se3_project_xyz>
+    : PixelEdge<graph::EdgeTag::stereo_se3_project_xyz, StereoAtTheEnd> {};
 
-}  // namespace sg
+}  // namespace sg::factor

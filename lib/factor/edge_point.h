@@ -7,9 +7,9 @@
 #include "lib/factor/model.h"
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 
-template <EdgeTag type>
+template <graph::EdgeTag type>
 struct PointPrior : Registered<type> {
   static constexpr int dim = Registered<type>::dim, constants = dim;
 
@@ -27,7 +27,7 @@ struct PointPrior : Registered<type> {
   }
 };
 
-template <EdgeTag type>
+template <graph::EdgeTag type>
 struct PointPair : Registered<type> {
   static constexpr int dim = Registered<type>::dim, constants = dim;
 
@@ -49,12 +49,12 @@ struct PointPair : Registered<type> {
 };
 
 template <>
-struct EdgeModel<EdgeTag::prior_xy> : PointPrior<EdgeTag::prior_xy> {};
+struct EdgeModel<graph::EdgeTag::prior_xy> : PointPrior<graph::EdgeTag::prior_xy> {};
 template <>
-struct EdgeModel<EdgeTag::pointxyz_prior> : PointPrior<EdgeTag::pointxyz_prior> {};
+struct EdgeModel<graph::EdgeTag::pointxyz_prior> : PointPrior<graph::EdgeTag::pointxyz_prior> {};
 template <>
-struct EdgeModel<EdgeTag::pointxy> : PointPair<EdgeTag::pointxy> {};
+struct EdgeModel<graph::EdgeTag::pointxy> : PointPair<graph::EdgeTag::pointxy> {};
 template <>
-struct EdgeModel<EdgeTag::pointxyz> : PointPair<EdgeTag::pointxyz> {};
+struct EdgeModel<graph::EdgeTag::pointxyz> : PointPair<graph::EdgeTag::pointxyz> {};
 
-}  // namespace sg
+}  // namespace sg::factor

@@ -12,15 +12,15 @@
 #include "lib/factor/model.h"
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 
 template <>
-struct EdgeModel<EdgeTag::se2> : Registered<EdgeTag::se2> {
+struct EdgeModel<graph::EdgeTag::se2> : Registered<graph::EdgeTag::se2> {
   static constexpr int constants = 5;
 
   // c = z, cos and sin of its angle
   static bool prepare(const double* z, const double* const*, double* c) {
-    set_se2(se2(z), c);
+    set_se2(geometry::se2(z), c);
     c[3] = std::cos(z[2]);
     c[4] = std::sin(z[2]);
     return true;
@@ -34,7 +34,7 @@ struct EdgeModel<EdgeTag::se2> : Registered<EdgeTag::se2> {
     const double u = ci * dx + si * dy - c[0], v = ci * dy - si * dx - c[1];
     e[0] = cz * u + sz * v;
     e[1] = cz * v - sz * u;
-    e[2] = wrap(j[2] - i[2] - c[2]);
+    e[2] = geometry::wrap(j[2] - i[2] - c[2]);
     if (!J) return;
     const double cs = cz * ci - sz * si, sn = sz * ci + cz * si;  // of theta_i + theta_z
     Eigen::Map<Eigen::Matrix3d>(J[1]) << cs, sn, 0, -sn, cs, 0, 0, 0, 1;
@@ -43,33 +43,34 @@ struct EdgeModel<EdgeTag::se2> : Registered<EdgeTag::se2> {
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE2 z = se2(c);
-    set_se2(end == 1 ? compose(se2(x[0]), z) : compose(se2(x[1]), inverse(z)), out);
+    const SE2 z = geometry::se2(c);
+    set_se2(end == 1 ? compose(geometry::se2(x[0]), z) : compose(geometry::se2(x[1]), inverse(z)),
+            out);
     return true;
   }
 };
 
 template <>
-struct EdgeModel<EdgeTag::se2_offset> : Registered<EdgeTag::se2_offset> {
+struct EdgeModel<graph::EdgeTag::se2_offset> : Registered<graph::EdgeTag::se2_offset> {
   static constexpr int constants = 9;
 
   // c = z, p_i, p_j
   static bool prepare(const double* z, const double* const* p, double* c) {
-    set_se2(se2(z), c);
-    set_se2(se2(p[0]), c + 3);
-    set_se2(se2(p[1]), c + 6);
+    set_se2(geometry::se2(z), c);
+    set_se2(geometry::se2(p[0]), c + 3);
+    set_se2(geometry::se2(p[1]), c + 6);
     return true;
   }
 
   // With a = p_i z and the lever p_j:  e = a^-1 (x_i^-1 x_j) p_j, turned back by nothing: z^-1
   // p_i^-1 = a^-1.
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    const SE2 i = se2(x[0]), j = se2(x[1]), to = se2(c + 6);
-    const SE2 a = compose(se2(c + 3), se2(c));
+    const SE2 i = geometry::se2(x[0]), j = geometry::se2(x[1]), to = geometry::se2(c + 6);
+    const SE2 a = compose(geometry::se2(c + 3), geometry::se2(c));
     set_se2(between(a, compose(between(i, j), to)), e);
     if (!J) return;
-    const Eigen::Matrix2d back = rotation(-i.theta - a.theta);
-    const Eigen::Vector2d lever = rotation(j.theta) * Eigen::Vector2d(to.x, to.y);
+    const Eigen::Matrix2d back = geometry::rotation(-i.theta - a.theta);
+    const Eigen::Vector2d lever = geometry::rotation(j.theta) * Eigen::Vector2d(to.x, to.y);
     const Eigen::Vector2d reach = Eigen::Vector2d(j.x - i.x, j.y - i.y) + lever;
     const Eigen::Matrix2d quarter{{0, -1}, {1, 0}};
     Eigen::Map<Eigen::Matrix3d> Ji(J[0]), Jj(J[1]);
@@ -78,36 +79,39 @@ struct EdgeModel<EdgeTag::se2_offset> : Registered<EdgeTag::se2_offset> {
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE2 motion = compose(compose(se2(c + 3), se2(c)), inverse(se2(c + 6)));
-    set_se2(end == 1 ? compose(se2(x[0]), motion) : compose(se2(x[1]), inverse(motion)), out);
+    const SE2 motion =
+        compose(compose(geometry::se2(c + 3), geometry::se2(c)), inverse(geometry::se2(c + 6)));
+    set_se2(end == 1 ? compose(geometry::se2(x[0]), motion)
+                     : compose(geometry::se2(x[1]), inverse(motion)),
+            out);
     return true;
   }
 };
 
 template <>
-struct EdgeModel<EdgeTag::prior_se2> : Registered<EdgeTag::prior_se2> {
+struct EdgeModel<graph::EdgeTag::prior_se2> : Registered<graph::EdgeTag::prior_se2> {
   static constexpr int constants = 3;
 
   static bool prepare(const double* z, const double* const*, double* c) {
-    set_se2(se2(z), c);
+    set_se2(geometry::se2(z), c);
     return true;
   }
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    set_se2(between(se2(c), se2(x[0])), e);
+    set_se2(between(geometry::se2(c), geometry::se2(x[0])), e);
     if (!J) return;
     const double cz = std::cos(c[2]), sz = std::sin(c[2]);
     Eigen::Map<Eigen::Matrix3d>(J[0]) << cz, sz, 0, -sz, cz, 0, 0, 0, 1;
   }
 
   static bool place(const double* const*, const double* c, int, double* out) {
-    set_se2(se2(c), out);
+    set_se2(geometry::se2(c), out);
     return true;
   }
 };
 
 template <>
-struct EdgeModel<EdgeTag::prior_se2_xy> : Registered<EdgeTag::prior_se2_xy> {
+struct EdgeModel<graph::EdgeTag::prior_se2_xy> : Registered<graph::EdgeTag::prior_se2_xy> {
   static constexpr int constants = 2;
 
   static bool prepare(const double* z, const double* const*, double* c) {
@@ -123,4 +127,4 @@ struct EdgeModel<EdgeTag::prior_se2_xy> : Registered<EdgeTag::prior_se2_xy> {
   }
 };
 
-}  // namespace sg
+}  // namespace sg::factor

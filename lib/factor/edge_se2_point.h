@@ -8,10 +8,10 @@
 #include "lib/factor/model.h"
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 
 template <>
-struct EdgeModel<EdgeTag::se2_xy> : Registered<EdgeTag::se2_xy> {
+struct EdgeModel<graph::EdgeTag::se2_xy> : Registered<graph::EdgeTag::se2_xy> {
   static constexpr int constants = 2;
 
   static bool prepare(const double* z, const double* const*, double* c) {
@@ -33,13 +33,13 @@ struct EdgeModel<EdgeTag::se2_xy> : Registered<EdgeTag::se2_xy> {
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
     if (end != 1) return false;
-    Eigen::Map<Eigen::Vector2d>{out} = act(se2(x[0]), vector2(c));
+    Eigen::Map<Eigen::Vector2d>{out} = act(geometry::se2(x[0]), geometry::vector2(c));
     return true;
   }
 };
 
 template <>
-struct EdgeModel<EdgeTag::bearing_se2_xy> : Registered<EdgeTag::bearing_se2_xy> {
+struct EdgeModel<graph::EdgeTag::bearing_se2_xy> : Registered<graph::EdgeTag::bearing_se2_xy> {
   static constexpr int constants = 1;
 
   static bool prepare(const double* z, const double* const*, double* c) {
@@ -49,7 +49,7 @@ struct EdgeModel<EdgeTag::bearing_se2_xy> : Registered<EdgeTag::bearing_se2_xy> 
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     const double dx = x[1][0] - x[0][0], dy = x[1][1] - x[0][1];
-    e[0] = wrap(c[0] + x[0][2] - std::atan2(dy, dx));
+    e[0] = geometry::wrap(c[0] + x[0][2] - std::atan2(dy, dx));
     if (!J) return;
     const double square = dx * dx + dy * dy;
     const double slope_x = dy / square, slope_y = -dx / square;
@@ -68,4 +68,4 @@ struct EdgeModel<EdgeTag::bearing_se2_xy> : Registered<EdgeTag::bearing_se2_xy> 
   }
 };
 
-}  // namespace sg
+}  // namespace sg::factor

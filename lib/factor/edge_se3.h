@@ -17,10 +17,10 @@
 #include "lib/factor/model.h"
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 
 inline bool prepare_se3(const double* numbers, double* c) {
-  const SE3 z = se3(numbers);
+  const SE3 z = geometry::se3(numbers);
   if (z.q.norm() < 1e-6) return false;
   set_se3(normalized(z), c);
   return true;
@@ -45,7 +45,8 @@ inline void set_error(const SE3& d, double* e) {
 // The vector part of a (0, v) b is this times v.
 inline Eigen::Matrix3d vector_part(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  return (a.w() * identity + skew(a.vec())) * (b.w() * identity - skew(b.vec())) -
+  return (a.w() * identity + geometry::skew(a.vec())) *
+             (b.w() * identity - geometry::skew(b.vec())) -
          a.vec() * b.vec().transpose();
 }
 
@@ -55,13 +56,13 @@ inline void set_jacobian(const SE3& a, const SE3& b, double sign, double* J) {
   const double flip = a.q.w() * b.q.w() - a.q.vec().dot(b.q.vec()) < 0 ? -sign : sign;
   Eigen::Map<Matrix6d> result(J);
   result.topLeftCorner<3, 3>() = R;
-  result.topRightCorner<3, 3>() = -2 * R * skew(b.t);
+  result.topRightCorner<3, 3>() = -2 * R * geometry::skew(b.t);
   result.bottomLeftCorner<3, 3>().setZero();
   result.bottomRightCorner<3, 3>() = flip * vector_part(a.q, b.q);
 }
 
 template <>
-struct EdgeModel<EdgeTag::se3> : Registered<EdgeTag::se3> {
+struct EdgeModel<graph::EdgeTag::se3> : Registered<graph::EdgeTag::se3> {
   static constexpr int constants = 7;
 
   static bool prepare(const double* z, const double* const*, double* c) {
@@ -69,9 +70,10 @@ struct EdgeModel<EdgeTag::se3> : Registered<EdgeTag::se3> {
   }
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    const SE3 a = inverse(se3(c));
-    const SE3 b = between(se3(x[0]), se3(x[1]));
-    const auto q = rotation_product({a.q, se3(x[0]).q.conjugate(), se3(x[1]).q});
+    const SE3 a = inverse(geometry::se3(c));
+    const SE3 b = between(geometry::se3(x[0]), geometry::se3(x[1]));
+    const auto q =
+        rotation_product({a.q, geometry::se3(x[0]).q.conjugate(), geometry::se3(x[1]).q});
     const SE3 d{q, a.q * b.t + a.t};
     set_error(d, e);
     if (!J) return;
@@ -80,25 +82,27 @@ struct EdgeModel<EdgeTag::se3> : Registered<EdgeTag::se3> {
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE3 z = se3(c);
-    set_se3(end == 1 ? compose(se3(x[0]), z) : compose(se3(x[1]), inverse(z)), out);
+    const SE3 z = geometry::se3(c);
+    set_se3(end == 1 ? compose(geometry::se3(x[0]), z) : compose(geometry::se3(x[1]), inverse(z)),
+            out);
     return true;
   }
 };
 
 template <>
-struct EdgeModel<EdgeTag::se3_offset> : Registered<EdgeTag::se3_offset> {
+struct EdgeModel<graph::EdgeTag::se3_offset> : Registered<graph::EdgeTag::se3_offset> {
   static constexpr int constants = 21;
 
   // c = z, p_i, p_j
   static bool prepare(const double* z, const double* const* p, double* c) {
-    set_se3(se3(p[0]), c + 7);
-    set_se3(se3(p[1]), c + 14);
+    set_se3(geometry::se3(p[0]), c + 7);
+    set_se3(geometry::se3(p[1]), c + 14);
     return prepare_se3(z, c);
   }
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    const SE3 z = se3(c), from = se3(c + 7), to = se3(c + 14), i = se3(x[0]), j = se3(x[1]);
+    const SE3 z = geometry::se3(c), from = geometry::se3(c + 7), to = geometry::se3(c + 14),
+              i = geometry::se3(x[0]), j = geometry::se3(x[1]);
     const auto q =
         rotation_product({z.q.conjugate(), from.q.conjugate(), i.q.conjugate(), j.q, to.q});
     const Eigen::Vector3d reach = act(j, to.t) - act(i, from.t);
@@ -111,39 +115,42 @@ struct EdgeModel<EdgeTag::se3_offset> : Registered<EdgeTag::se3_offset> {
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE3 motion = compose(compose(se3(c + 7), se3(c)), inverse(se3(c + 14)));
-    set_se3(end == 1 ? compose(se3(x[0]), motion) : compose(se3(x[1]), inverse(motion)), out);
+    const SE3 motion =
+        compose(compose(geometry::se3(c + 7), geometry::se3(c)), inverse(geometry::se3(c + 14)));
+    set_se3(end == 1 ? compose(geometry::se3(x[0]), motion)
+                     : compose(geometry::se3(x[1]), inverse(motion)),
+            out);
     return true;
   }
 };
 
 template <>
-struct EdgeModel<EdgeTag::se3_prior> : Registered<EdgeTag::se3_prior> {
+struct EdgeModel<graph::EdgeTag::se3_prior> : Registered<graph::EdgeTag::se3_prior> {
   static constexpr int constants = 14;
 
   // c = z, p; of this type alone g2o leaves the measurement's quaternion as its text has it
   static bool prepare(const double* z, const double* const* p, double* c) {
-    set_se3(se3(z), c);
-    set_se3(se3(p[0]), c + 7);
-    return se3(z).q.norm() > 1e-6;
+    set_se3(geometry::se3(z), c);
+    set_se3(geometry::se3(p[0]), c + 7);
+    return geometry::se3(z).q.norm() > 1e-6;
   }
 
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
-    const SE3 z = se3(c), pose = se3(x[0]), p = se3(c + 7);
+    const SE3 z = geometry::se3(c), pose = geometry::se3(x[0]), p = geometry::se3(c + 7);
     const auto q = rotation_product({z.q.conjugate(), pose.q, p.q});
     set_error({q, z.q.conjugate() * (act(pose, p.t) - z.t)}, e);
     if (J) set_jacobian(between(z, pose), p, 1, J[0]);
   }
 
   static bool place(const double* const*, const double* c, int, double* out) {
-    const SE3 x = compose(se3(c), inverse(se3(c + 7)));
+    const SE3 x = compose(geometry::se3(c), inverse(geometry::se3(c + 7)));
     set_se3(normalized(x), out);
     return true;
   }
 };
 
 template <>
-struct EdgeModel<EdgeTag::se3_xyz_prior> : Registered<EdgeTag::se3_xyz_prior> {
+struct EdgeModel<graph::EdgeTag::se3_xyz_prior> : Registered<graph::EdgeTag::se3_xyz_prior> {
   static constexpr int constants = 3;
 
   static bool prepare(const double* z, const double* const*, double* c) {
@@ -154,9 +161,9 @@ struct EdgeModel<EdgeTag::se3_xyz_prior> : Registered<EdgeTag::se3_xyz_prior> {
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     for (int k = 0; k < 3; ++k) e[k] = x[0][k] - c[k];
     if (!J) return;
-    Eigen::Map<Eigen::Matrix<double, 3, 6>>(J[0]) << se3(x[0]).q.toRotationMatrix(),
+    Eigen::Map<Eigen::Matrix<double, 3, 6>>(J[0]) << geometry::se3(x[0]).q.toRotationMatrix(),
         Eigen::Matrix3d::Zero();
   }
 };
 
-}  // namespace sg
+}  // namespace sg::factor

@@ -9,7 +9,7 @@
 
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 namespace {
 
 // Columns: translation along x, y, z, rotation about them, change of scale.
@@ -27,15 +27,15 @@ struct Frame {
   double radius = 1;
 };
 
-Eigen::Vector3d position(Space space, const double* x) {
+Eigen::Vector3d position(graph::Space space, const double* x) {
   switch (space) {
-    case Space::se2:
-    case Space::xy:
+    case graph::Space::se2:
+    case graph::Space::xy:
       return {x[0], x[1], 0};
-    case Space::expmap:
-      return inverse(se3(x)).t;
+    case graph::Space::expmap:
+      return inverse(geometry::se3(x)).t;
     default:
-      return vector3(x);
+      return geometry::vector3(x);
   }
 }
 
@@ -57,29 +57,29 @@ Frame frame_of(const Problem& problem, const Values& values, std::span<const Ind
 
 // The steps (space.h) of vertex v that the motions make.
 Motions motions_of(const Problem& problem, const Values& values, Index v, const Frame& frame) {
-  const Space space = problem.space[v];
+  const graph::Space space = problem.space[v];
   const double* const x = values.data() + problem.value_at[v];
   const Eigen::Vector3d p = (position(space, x) - frame.center) / frame.radius;
   Eigen::Matrix<double, 3, motions> moved, turned;
-  moved << Eigen::Matrix3d::Identity(), -skew(p), p;
+  moved << Eigen::Matrix3d::Identity(), -geometry::skew(p), p;
   turned << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity() / frame.radius,
       Eigen::Vector3d::Zero();
-  Motions step(space_dim(space), motions);
+  Motions step(graph::space_dim(space), motions);
   switch (space) {
-    case Space::se2:
+    case graph::Space::se2:
       step << moved.topRows(2), turned.bottomRows(1);
       break;
-    case Space::se3: {
-      const Eigen::Matrix3d to_body = se3(x).q.toRotationMatrix().transpose();
+    case graph::Space::se3: {
+      const Eigen::Matrix3d to_body = geometry::se3(x).q.toRotationMatrix().transpose();
       step << to_body * moved, to_body * turned / 2;
       break;
     }
-    case Space::expmap: {
-      const Eigen::Matrix3d to_camera = se3(x).q.toRotationMatrix();
+    case graph::Space::expmap: {
+      const Eigen::Matrix3d to_camera = geometry::se3(x).q.toRotationMatrix();
       step << -to_camera * turned, -to_camera * moved;
       break;
     }
-    case Space::xy:
+    case graph::Space::xy:
       step = moved.topRows(2);
       break;
     default:
@@ -119,7 +119,7 @@ int rank(const Gram& gram) {
 // Of all vertices, their number if there is none.
 Index first_pose(const Graph& graph) {
   Index v = 0;
-  while (v < graph.vertices() && graph.role(v) != Role::pose) ++v;
+  while (v < graph.vertices() && graph.role(v) != graph::Role::pose) ++v;
   return v;
 }
 
@@ -130,7 +130,7 @@ bool is_anchor(const Problem& problem, Index e) {
   const auto ends = graph.edge(e);
   return ends.size() == 1 ||
          std::ranges::any_of(ends, [&](Index v) { return bool(graph.fixed[v]); }) ||
-         std::ranges::none_of(ends, [&](Index v) { return graph.role(v) == Role::pose; });
+         std::ranges::none_of(ends, [&](Index v) { return graph.role(v) == graph::Role::pose; });
 }
 
 bool holds_gauge(const Problem& problem, const Values& values, std::span<const Index> vertices,
@@ -187,7 +187,7 @@ bool holds_first_pose(const Problem& problem, const Values& values) {
 void hold_first_pose(Problem& problem) {
   assert(problem.held < 0);
   if (problem.variables.variable_vertex.empty()) return;
-  const auto is_pose = [&](Index v) { return problem.graph->role(v) == Role::pose; };
+  const auto is_pose = [&](Index v) { return problem.graph->role(v) == graph::Role::pose; };
   const auto pose = std::ranges::find_if(problem.variables.variable_vertex, is_pose);
   const bool none = pose == problem.variables.variable_vertex.end();
   problem.held = none ? 0 : static_cast<Index>(pose - problem.variables.variable_vertex.begin());
@@ -229,4 +229,4 @@ std::vector<double> free_scaling(const Problem& problem, const Values& values,
   return step;
 }
 
-}  // namespace sg
+}  // namespace sg::factor

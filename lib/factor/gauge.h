@@ -12,7 +12,7 @@
 
 #include "lib/factor/linearize.h"
 
-namespace sg {
+namespace sg::factor {
 
 // Whether an edge can notice a motion of the whole.
 bool is_anchor(const Problem& problem, Index e);
@@ -34,4 +34,4 @@ void hold_first_pose(Problem& problem);
 std::vector<double> free_scaling(const Problem& problem, const Values& values,
                                  const LinearSystem& system);
 
-}  // namespace sg
+}  // namespace sg::factor

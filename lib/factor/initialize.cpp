@@ -6,7 +6,7 @@
 
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 namespace {
 
 // Where v stands in edge e, if all other ends are placed; -1 otherwise.
@@ -28,7 +28,7 @@ bool place_by_rays(const Problem& problem, Index v, std::span<const Index> edges
   for (Index e : edges) {
     const Model& model = *problem.model[e];
     if (!model.rays || free_end(*problem.graph, placed, e, v) < 0) continue;
-    if (problem.graph->role(v) != Role::landmark) continue;
+    if (problem.graph->role(v) != graph::Role::landmark) continue;
     rays.push_back(ray_of(problem, e, values));
   }
   if (rays.empty()) return false;
@@ -40,8 +40,8 @@ bool place_by_rays(const Problem& problem, Index v, std::span<const Index> edges
 }
 
 // Edges at every vertex, in file order.
-Lists<> incidence(const Graph& graph) {
-  return counting_sort(graph.vertices(), [&](const auto& put) {
+graph::Lists<> incidence(const Graph& graph) {
+  return graph::counting_sort(graph.vertices(), [&](const auto& put) {
     for (Index e = 0; e < graph.edges(); ++e) {
       for (Index v : graph.edge(e)) put(v, e);
     }
@@ -52,8 +52,8 @@ Lists<> incidence(const Graph& graph) {
 // one.
 struct Spread {
   const Problem& problem;
-  const Lists<>& at;
-  Role role;
+  const graph::Lists<>& at;
+  graph::Role role;
   std::vector<bool>& placed;
   Values& values;
   std::priority_queue<Index, std::vector<Index>, std::greater<>> reached{};
@@ -183,8 +183,8 @@ Composed compose(const Problem& problem) {
     placed = graph.fixed;
     if (problem.held >= 0) placed[problem.variables.variable_vertex[problem.held]] = true;
   }
-  const Lists<> at = incidence(graph);
-  for (Role role : {Role::pose, Role::landmark, Role::other}) {
+  const graph::Lists<> at = incidence(graph);
+  for (graph::Role role : {graph::Role::pose, graph::Role::landmark, graph::Role::other}) {
     Spread spread{problem, at, role, placed, values};
     place_all(spread, result.adrift);
   }
@@ -199,4 +199,4 @@ Values start_values(const Problem& problem) {
   return problem.graph->edges_only ? initial_values(problem) : file_values(problem);
 }
 
-}  // namespace sg
+}  // namespace sg::factor

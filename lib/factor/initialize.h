@@ -15,7 +15,7 @@
 
 #include "lib/factor/problem.h"
 
-namespace sg {
+namespace sg::factor {
 
 constexpr double lone_range = 2;
 
@@ -43,4 +43,4 @@ bool triangulate(std::span<const Ray> rays, int dim, double* out);
 bool place_vertex(const Problem& problem, Index v, std::span<const Index> edges,
                   const std::vector<bool>& placed, Values& values);
 
-}  // namespace sg
+}  // namespace sg::factor

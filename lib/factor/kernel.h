@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace sg {
+namespace sg::factor {
 
 enum class KernelShape { none, huber, cauchy };
 
@@ -44,4 +44,4 @@ inline double weight(const Kernel& kernel, double s) {
   return 1;
 }
 
-}  // namespace sg
+}  // namespace sg::factor

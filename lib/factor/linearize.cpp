@@ -9,11 +9,11 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::factor {
 namespace {
 
 // Those of A_r, without b.
-int columns(const Pattern& pattern, Index r) {
+int columns(const graph::Pattern& pattern, Index r) {
   return block_columns(pattern, r) - 1;
 }
 
@@ -25,7 +25,7 @@ void gauge_row(int dim, double* block) {
 // An edge with fixed vertices, or with the same vertex twice: columns of constants are left out,
 // those of one variable are added up.
 void gather_columns(const Problem& problem, Index e, const double* all, double* block) {
-  const Pattern& pattern = problem.variables.pattern;
+  const graph::Pattern& pattern = problem.variables.pattern;
   const int dim = problem.model[e]->dim;
   const auto variables = pattern.rows[e];
   std::fill_n(block, dim * columns(pattern, e), 0.0);
@@ -43,7 +43,7 @@ void gather_columns(const Problem& problem, Index e, const double* all, double* 
 }
 
 void clear_held(const Problem& problem, Index e, double* block) {
-  const Pattern& pattern = problem.variables.pattern;
+  const graph::Pattern& pattern = problem.variables.pattern;
   for (Index j : pattern.rows[e]) {
     const int size = problem.model[e]->dim * pattern.dim[j];
     if (j == problem.held) std::fill_n(block, size, 0.0);
@@ -60,9 +60,9 @@ void reweigh(const Kernel& kernel, int dim, int columns, double* block) {
   std::for_each(block, block + dim * (columns + 1), [&](double& number) { number *= scale; });
 }
 
-Error error_of_edge(const Problem& problem, Index e, const std::string& cause) {
+text::Error error_of_edge(const Problem& problem, Index e, const std::string& cause) {
   const Graph& graph = *problem.graph;
-  return {Fault::computation, graph.file, line_number(graph, graph.edge_line[e]),
+  return {text::Fault::computation, graph.file, graph::line_number(graph, graph.edge_line[e]),
           graph.type_of_edge(e).tag + cause};
 }
 
@@ -73,7 +73,7 @@ int block_rows(const Problem& problem, Index r) {
   return gauge ? problem.variables.pattern.dim[problem.held] : problem.model[r]->dim;
 }
 
-int block_columns(const Pattern& pattern, Index r) {
+int block_columns(const graph::Pattern& pattern, Index r) {
   int sum = 1;
   for (Index j : pattern.rows[r]) sum += pattern.dim[j];
   return sum;
@@ -92,7 +92,7 @@ bool is_laid_out(const LinearSystem& system) {
 
 LinearSystem make_linear_system(const Problem& problem) {
   LinearSystem system;
-  const Pattern& pattern = problem.variables.pattern;
+  const graph::Pattern& pattern = problem.variables.pattern;
   system.pattern = &pattern;
   system.begin.push_back(0);
   for (Index r = 0; r < pattern.rows.size(); ++r) {
@@ -105,7 +105,7 @@ LinearSystem make_linear_system(const Problem& problem) {
 
 void linearize_row(const Problem& problem, const Values& values, const Kernel& kernel, Index r,
                    double* block) {
-  const Pattern& pattern = problem.variables.pattern;
+  const graph::Pattern& pattern = problem.variables.pattern;
   assert(0 <= r && r < pattern.rows.size());
   assert(static_cast<Index>(values.size()) == problem.value_at.back());
   if (r >= problem.graph->edges()) return gauge_row(pattern.dim[problem.held], block);
@@ -183,4 +183,4 @@ double finite_chi2(const Problem& problem, const Values& values, const Kernel& k
   return sum;
 }
 
-}  // namespace sg
+}  // namespace sg::factor

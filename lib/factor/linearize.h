@@ -15,12 +15,12 @@
 #include "lib/factor/kernel.h"
 #include "lib/factor/problem.h"
 
-namespace sg {
+namespace sg::factor {
 
 struct LinearSystem {
-  const Pattern* pattern = nullptr;  // of the problem it was made for: variables and rows
-  std::vector<int> height;           // rows of every block
-  std::vector<Offset> begin;         // of every block in numbers, and the end
+  const graph::Pattern* pattern = nullptr;  // of the problem it was made for: variables and rows
+  std::vector<int> height;                  // rows of every block
+  std::vector<Offset> begin;                // of every block in numbers, and the end
   std::vector<double> numbers;
 
   const double* block(Index r) const { return numbers.data() + begin[r]; }
@@ -29,7 +29,7 @@ struct LinearSystem {
 
 // Rows and columns of row r's block; columns with b.
 int block_rows(const Problem& problem, Index r);
-int block_columns(const Pattern& pattern, Index r);
+int block_columns(const graph::Pattern& pattern, Index r);
 
 // Whether blocks follow one another, each as large as its row of the pattern says.
 bool is_laid_out(const LinearSystem& system);
@@ -63,4 +63,4 @@ double chi2(const Problem& problem, const Values& values, const Kernel& kernel =
 double finite_edge_chi2(const Problem& problem, const Values& values, Index e);
 double finite_chi2(const Problem& problem, const Values& values, const Kernel& kernel = {});
 
-}  // namespace sg
+}  // namespace sg::factor

@@ -30,29 +30,29 @@
 
 #include "lib/factor/space.h"
 
-namespace sg {
+namespace sg::factor {
 
 constexpr int max_ends = 2;
 constexpr int max_dim = 6;                                     // of an error, and of a vertex
 constexpr int max_size = 7;                                    // of an estimate
 constexpr int max_block = max_dim * (max_ends * max_dim + 1);  // numbers of a linearized factor
 
-template <EdgeTag type>
+template <graph::EdgeTag type>
 struct EdgeModel;  // has no definition where there is no model
 
-template <EdgeTag type>
+template <graph::EdgeTag type>
 struct Registered {
-  static constexpr const EdgeRow& edge = row(type);
+  static constexpr const graph::EdgeRow& edge = graph::row(type);
   static constexpr int dim = edge.measure.dim;
   static constexpr int measurement = edge.measure.numbers;
   static constexpr int extra = edge.measure.extra;
   static constexpr auto ends = [] {
-    std::array<Space, edge.ends.size> spaces{};
-    for (std::size_t k = 0; k < spaces.size(); ++k) spaces[k] = row(edge.ends[k]).space;
+    std::array<graph::Space, edge.ends.size> spaces{};
+    for (std::size_t k = 0; k < spaces.size(); ++k) spaces[k] = graph::row(edge.ends[k]).space;
     return spaces;
   }();
   static constexpr auto params = [] {
-    std::array<ParamTag, edge.params.size> tags{};
+    std::array<graph::ParamTag, edge.params.size> tags{};
     std::copy_n(edge.params.item.begin(), tags.size(), tags.begin());
     return tags;
   }();
@@ -75,15 +75,15 @@ struct Whitening {
 };
 
 struct Model {
-  EdgeTag type;
+  graph::EdgeTag type;
   std::string_view tag;
   int dim;
   int measurement;
   int extra;
   int constants;
   int arity;
-  std::array<Space, max_ends> ends;
-  std::span<const ParamTag> params;
+  std::array<graph::Space, max_ends> ends;
+  std::span<const graph::ParamTag> params;
 
   // False for a measurement that is none (a quaternion of length zero).
   bool (*prepare)(const double* z, const double* const* params, double* c);
@@ -97,6 +97,6 @@ struct Model {
 };
 
 std::span<const Model> models();
-const Model* find_model(EdgeTag type);  // null where there is none
+const Model* find_model(graph::EdgeTag type);  // null where there is none
 
-}  // namespace sg
+}  // namespace sg::factor

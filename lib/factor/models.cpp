@@ -10,7 +10,7 @@
 #include "lib/factor/edge_se3_point.h"
 #include "lib/factor/model.h"
 
-namespace sg {
+namespace sg::factor {
 namespace {
 
 template <int rows, int cols>
@@ -38,7 +38,7 @@ void whitened_error(const double* const* x, const double* c, const Whitening& U,
 template <class Type>
 constexpr int columns_of() {
   int sum = 0;
-  for (Space space : Type::ends) sum += space_dim(space);
+  for (graph::Space space : Type::ends) sum += graph::space_dim(space);
   return sum;
 }
 
@@ -50,7 +50,7 @@ void linearize(const double* const* x, const double* c, const Whitening& U, doub
   double* at = unwhitened.data();
   for (std::size_t k = 0; k < Type::ends.size(); ++k) {
     J[k] = at;
-    at += dim * space_dim(Type::ends[k]);
+    at += dim * graph::space_dim(Type::ends[k]);
   }
   Type::evaluate(x, c, at, J.data());
   unwhitened.col(columns) *= -1;
@@ -77,7 +77,7 @@ Model model() {
   return row;
 }
 
-template <EdgeTag type>
+template <graph::EdgeTag type>
 void add_model(std::vector<Model>& table) {
   if constexpr (requires { EdgeModel<type>::evaluate; }) table.push_back(model<EdgeModel<type>>());
 }
@@ -85,13 +85,13 @@ void add_model(std::vector<Model>& table) {
 template <std::size_t... type>
 std::vector<Model> all_models(std::index_sequence<type...>) {
   std::vector<Model> table;
-  (add_model<static_cast<EdgeTag>(type)>(table), ...);
+  (add_model<static_cast<graph::EdgeTag>(type)>(table), ...);
   return table;
 }
 
 // By type; null for those without a model.
-std::array<const Model*, edge_rows.size()> by_type() {
-  std::array<const Model*, edge_rows.size()> result{};
+std::array<const Model*, graph::edge_rows.size()> by_type() {
+  std::array<const Model*, graph::edge_rows.size()> result{};
   for (const Model& m : models()) result[static_cast<std::size_t>(m.type)] = &m;
   return result;
 }
@@ -99,14 +99,14 @@ std::array<const Model*, edge_rows.size()> by_type() {
 }  // namespace
 
 std::span<const Model> models() {
-  static const auto table = all_models(std::make_index_sequence<edge_rows.size()>());
+  static const auto table = all_models(std::make_index_sequence<graph::edge_rows.size()>());
   return table;
 }
 
-const Model* find_model(EdgeTag type) {
+const Model* find_model(graph::EdgeTag type) {
   static const auto table = by_type();
   const auto index = static_cast<std::size_t>(type);
   return index < table.size() ? table[index] : nullptr;
 }
 
-}  // namespace sg
+}  // namespace sg::factor

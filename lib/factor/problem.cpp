@@ -12,7 +12,7 @@
 #include "lib/text/error.h"
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::factor {
 namespace {
 
 std::string quoted(std::string_view text) {
@@ -20,7 +20,7 @@ std::string quoted(std::string_view text) {
 }
 
 struct ParsedParam {
-  ParamTag type;
+  graph::ParamTag type;
   Offset line;
   std::vector<double> numbers;
 };
@@ -28,15 +28,15 @@ using ParamTable = std::unordered_map<Id, ParsedParam>;
 
 void check_finite(const Graph& graph, Offset line, const std::vector<double>& numbers) {
   for (double number : numbers) {
-    if (!std::isfinite(number)) throw error_at(graph, line, "a number is not finite");
+    if (!std::isfinite(number)) throw graph::error_at(graph, line, "a number is not finite");
   }
 }
 
 ParamTable parse_params(const Graph& graph) {
   ParamTable table;
-  for (const Param& param : graph.params) {
+  for (const graph::Param& param : graph.params) {
     ParsedParam parsed{param.type, param.line, {}};
-    param_numbers(graph, param, parsed.numbers);
+    graph::param_numbers(graph, param, parsed.numbers);
     check_finite(graph, param.line, parsed.numbers);
     table[param.id] = std::move(parsed);
   }
@@ -45,19 +45,21 @@ ParamTable parse_params(const Graph& graph) {
 
 // Whether a line of one type of parameters can stand for another: a stereo camera is a camera, and a
 // camera has an offset.
-bool serves_as(ParamTag wanted, ParamTag given) {
-  if (given == wanted || given == ParamTag::unknown) return given == wanted;
-  return row(given).also != given && serves_as(wanted, row(given).also);
+bool serves_as(graph::ParamTag wanted, graph::ParamTag given) {
+  if (given == wanted || given == graph::ParamTag::unknown) return given == wanted;
+  return graph::row(given).also != given && serves_as(wanted, graph::row(given).also);
 }
 
 // The pose that a parameter starts with is brought to unit length: text rounds it.
-void normalize_param(const Graph& graph, ParamTag wanted, ParsedParam& param) {
-  if (static_cast<int>(param.numbers.size()) < row(wanted).numbers) {
-    throw error_at(graph, param.line, quoted(name(param.type)) + " has too few numbers");
+void normalize_param(const Graph& graph, graph::ParamTag wanted, ParsedParam& param) {
+  if (static_cast<int>(param.numbers.size()) < graph::row(wanted).numbers) {
+    throw graph::error_at(graph, param.line,
+                          quoted(graph::name(param.type)) + " has too few numbers");
   }
-  if (!has_quaternion(row(wanted).frame)) return;
-  const SE3 pose = se3(param.numbers.data());
-  if (pose.q.norm() < 1e-6) throw error_at(graph, param.line, "a quaternion has length zero");
+  if (!graph::has_quaternion(graph::row(wanted).frame)) return;
+  const SE3 pose = geometry::se3(param.numbers.data());
+  if (pose.q.norm() < 1e-6)
+    throw graph::error_at(graph, param.line, "a quaternion has length zero");
   set_se3(normalized(pose), param.numbers.data());
 }
 
@@ -73,14 +75,14 @@ struct Builder {
 std::array<const double*, max_ends> find_params(Builder& builder, Index e, const Model& model) {
   std::array<const double*, max_ends> found{};
   const Graph& graph = builder.graph;
-  const auto ids = edge_params(graph, e);
+  const auto ids = graph::edge_params(graph, e);
   for (std::size_t k = 0; k < model.params.size(); ++k) {
     const auto entry = builder.params.find(ids[k]);
-    const ParamTag wanted = model.params[k];
+    const graph::ParamTag wanted = model.params[k];
     if (entry == builder.params.end() || !serves_as(wanted, entry->second.type)) {
-      throw error_at(graph, graph.edge_line[e],
-                     quoted(model.tag) + " wants a " + quoted(name(wanted)) + " line with the id " +
-                         std::to_string(ids[k]));
+      throw graph::error_at(graph, graph.edge_line[e],
+                            quoted(model.tag) + " wants a " + quoted(graph::name(wanted)) +
+                                " line with the id " + std::to_string(ids[k]));
     }
     normalize_param(graph, wanted, entry->second);
     found[k] = entry->second.numbers.data();
@@ -93,10 +95,11 @@ void check_ends(const Builder& builder, Index e, const Model& model) {
   for (int k = 0; k < model.arity; ++k) {
     const Index v = vertices[k];
     if (builder.problem.space[v] == model.ends[k]) continue;
-    throw error_at(builder.graph, builder.graph.edge_line[e],
-                   quoted(model.tag) + " joins vertex " + std::to_string(builder.graph.id[v]) +
-                       ", a " + builder.graph.type_of_vertex(v).tag + ", where it wants a " +
-                       quoted(name(row(model.type).ends[k])));
+    throw graph::error_at(builder.graph, builder.graph.edge_line[e],
+                          quoted(model.tag) + " joins vertex " +
+                              std::to_string(builder.graph.id[v]) + ", a " +
+                              builder.graph.type_of_vertex(v).tag + ", where it wants a " +
+                              quoted(graph::name(graph::row(model.type).ends[k])));
   }
 }
 
@@ -107,8 +110,8 @@ Index store_whitening(Builder& builder, Index e, std::span<const double> triangl
     const std::size_t at = problem.whitening.size();
     problem.whitening.resize(at + dim * dim);
     if (!whitening(triangle, dim, problem.whitening.data() + at)) {
-      throw error_at(builder.graph, builder.graph.edge_line[e],
-                     "the information matrix is not positive semidefinite");
+      throw graph::error_at(builder.graph, builder.graph.edge_line[e],
+                            "the information matrix is not positive semidefinite");
     }
     builder.last_triangle.assign(triangle.begin(), triangle.end());
   }
@@ -118,26 +121,26 @@ Index store_whitening(Builder& builder, Index e, std::span<const double> triangl
 void add_factor(Builder& builder, Index e) {
   const Graph& graph = builder.graph;
   const Offset line = graph.edge_line[e];
-  const EdgeType& type = graph.type_of_edge(e);
+  const graph::EdgeType& type = graph.type_of_edge(e);
   const Model* model = find_model(graph.edge_tag(e));
-  if (!model) throw error_at(graph, line, type.tag + " has no measurement model here");
+  if (!model) throw graph::error_at(graph, line, type.tag + " has no measurement model here");
   check_ends(builder, e, *model);
 
   auto& numbers = builder.numbers;
-  edge_numbers(graph, e, numbers);
-  const int triangle = triangle_size(model->dim);
+  graph::edge_numbers(graph, e, numbers);
+  const int triangle = geometry::triangle_size(model->dim);
   const int wanted = model->measurement + triangle + model->extra;
   if (static_cast<int>(numbers.size()) < wanted) {
-    throw error_at(graph, line,
-                   type.tag + " wants " + std::to_string(wanted) + " numbers, not " +
-                       std::to_string(numbers.size()));
+    throw graph::error_at(graph, line,
+                          type.tag + " wants " + std::to_string(wanted) + " numbers, not " +
+                              std::to_string(numbers.size()));
   }
   check_finite(graph, line, numbers);
 
   Problem& problem = builder.problem;
   const std::span<const double> information(numbers.data() + model->measurement, triangle);
   problem.whitening_at.push_back(store_whitening(builder, e, information, model->dim));
-  problem.diagonal.push_back(is_diagonal(information, model->dim));
+  problem.diagonal.push_back(geometry::is_diagonal(information, model->dim));
   // What the model keeps: the measurement and the numbers behind the information, together.
   numbers.erase(numbers.begin() + model->measurement,
                 numbers.begin() + model->measurement + triangle);
@@ -146,7 +149,7 @@ void add_factor(Builder& builder, Index e) {
   problem.constants.resize(problem.constants.size() + model->constants);
   double* const constants = problem.constants.data() + problem.constants_at.back();
   if (!model->prepare(numbers.data(), find_params(builder, e, *model).data(), constants)) {
-    throw error_at(graph, line, "a quaternion has length zero");
+    throw graph::error_at(graph, line, "a quaternion has length zero");
   }
 }
 
@@ -154,13 +157,13 @@ void lay_out_values(Problem& problem) {
   const Graph& graph = *problem.graph;
   problem.value_at.push_back(0);
   for (Index v = 0; v < graph.vertices(); ++v) {
-    const Space space = graph.type_of_vertex(v).space;
+    const graph::Space space = graph.type_of_vertex(v).space;
     if (!has_steps(space)) {
-      throw error_at(graph, graph.vertex_line[v],
-                     graph.type_of_vertex(v).tag + " has no measurement model here");
+      throw graph::error_at(graph, graph.vertex_line[v],
+                            graph.type_of_vertex(v).tag + " has no measurement model here");
     }
     problem.space.push_back(space);
-    problem.value_at.push_back(problem.value_at.back() + space_size(space));
+    problem.value_at.push_back(problem.value_at.back() + graph::space_size(space));
   }
 }
 
@@ -170,9 +173,9 @@ bool is_free(const Problem& problem) {
   const Graph& graph = *problem.graph;
   bool anchored = false, poses = false;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (graph.fixed[v] && graph.role(v) == Role::pose) return false;
+    if (graph.fixed[v] && graph.role(v) == graph::Role::pose) return false;
     anchored |= graph.fixed[v];
-    poses |= graph.role(v) == Role::pose;
+    poses |= graph.role(v) == graph::Role::pose;
   }
   if (anchored && !poses) return false;
   for (Index e = 0; e < graph.edges(); ++e) anchored |= is_anchor(problem, e);
@@ -182,7 +185,7 @@ bool is_free(const Problem& problem) {
 }
 
 void lay_out_variables(Problem& problem) {
-  problem.variables = graph_pattern(*problem.graph);
+  problem.variables = graph::graph_pattern(*problem.graph);
   problem.step_at.push_back(0);
   for (int dim : problem.variables.pattern.dim)
     problem.step_at.push_back(problem.step_at.back() + dim);
@@ -203,20 +206,21 @@ Problem make_problem(const Graph& graph) {
 
 Values file_values(const Problem& problem) {
   const Graph& graph = *problem.graph;
-  if (graph.edges_only) throw input_error(graph.file, 0, "the file has no VERTEX lines");
+  if (graph.edges_only) throw text::input_error(graph.file, 0, "the file has no VERTEX lines");
   Values values(problem.value_at.back());
   std::vector<double> numbers;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    const Space space = problem.space[v];
-    vertex_numbers(graph, v, numbers);
+    const graph::Space space = problem.space[v];
+    graph::vertex_numbers(graph, v, numbers);
     check_finite(graph, graph.vertex_line[v], numbers);
-    if (static_cast<int>(numbers.size()) < space_size(space)) {
-      throw error_at(graph, graph.vertex_line[v],
-                     graph.type_of_vertex(v).tag + " wants " + std::to_string(space_size(space)) +
-                         " numbers, not " + std::to_string(numbers.size()));
+    if (static_cast<int>(numbers.size()) < graph::space_size(space)) {
+      throw graph::error_at(graph, graph.vertex_line[v],
+                            graph.type_of_vertex(v).tag + " wants " +
+                                std::to_string(graph::space_size(space)) + " numbers, not " +
+                                std::to_string(numbers.size()));
     }
     if (!from_file(space, numbers.data(), values.data() + problem.value_at[v])) {
-      throw error_at(graph, graph.vertex_line[v], "a quaternion has length zero");
+      throw graph::error_at(graph, graph.vertex_line[v], "a quaternion has length zero");
     }
   }
   return values;
@@ -232,14 +236,14 @@ void retract(const Problem& problem, const std::vector<double>& step, Values& va
 }
 
 std::vector<double> estimate_numbers(const Problem& problem, const Values& values, Index v) {
-  std::vector<double> numbers(space_size(problem.space[v]));
+  std::vector<double> numbers(graph::space_size(problem.space[v]));
   to_file(problem.space[v], values.data() + problem.value_at[v], numbers.data());
   return numbers;
 }
 
 std::string estimate_text(const Problem& problem, const Values& values, Index v) {
   std::string text;
-  append_numbers(text, estimate_numbers(problem, values, v));
+  text::append_numbers(text, estimate_numbers(problem, values, v));
   return text.substr(1);
 }
 
@@ -249,4 +253,4 @@ std::string vertex_line(const Problem& problem, const Values& values, Index v) {
          estimate_text(problem, values, v) + "\n";
 }
 
-}  // namespace sg
+}  // namespace sg::factor

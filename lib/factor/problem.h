@@ -18,15 +18,15 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::factor {
 
 using Values = std::vector<double>;
 
 struct Problem {
   const Graph* graph = nullptr;  // outlives the problem
 
-  std::vector<Space> space;     // n: of every vertex
-  std::vector<Index> value_at;  // n + 1: where its estimate starts in Values
+  std::vector<graph::Space> space;  // n: of every vertex
+  std::vector<Index> value_at;      // n + 1: where its estimate starts in Values
 
   std::vector<const Model*> model;  // m: of every edge
   std::vector<Index> constants_at;  // m, into constants
@@ -35,8 +35,8 @@ struct Problem {
   std::vector<double> whitening;    // U with W = U' U, dim x dim by column
   std::vector<bool> diagonal;       // m: whether the edge's U is
 
-  GraphPattern variables;      // pattern's rows: the edges, then the gauge's if there is one
-  Index held = -1;             // the variable that the gauge's row holds, -1 without one
+  graph::GraphPattern variables;  // pattern's rows: the edges, then the gauge's if there is one
+  Index held = -1;                // the variable that the gauge's row holds, -1 without one
   std::vector<Index> step_at;  // number of variables + 1: where a variable's part of a step starts
 };
 
@@ -79,4 +79,4 @@ std::vector<double> estimate_numbers(const Problem& problem, const Values& value
 std::string estimate_text(const Problem& problem, const Values& values, Index v);
 std::string vertex_line(const Problem& problem, const Values& values, Index v);
 
-}  // namespace sg
+}  // namespace sg::factor

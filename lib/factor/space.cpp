@@ -4,7 +4,7 @@
 
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::factor {
 namespace {
 
 Vector6d vector6(const double* x) {
@@ -13,44 +13,46 @@ Vector6d vector6(const double* x) {
 
 }  // namespace
 
-void retract(Space space, const double* step, double* x) {
+void retract(graph::Space space, const double* step, double* x) {
   switch (space) {
-    case Space::se2:
+    case graph::Space::se2:
       x[0] += step[0];
       x[1] += step[1];
-      x[2] = wrap(x[2] + step[2]);
+      x[2] = geometry::wrap(x[2] + step[2]);
       break;
-    case Space::se3:
-      set_se3(normalized(compose(se3(x), from_compact(vector6(step)))), x);
+    case graph::Space::se3:
+      set_se3(normalized(compose(geometry::se3(x), geometry::from_compact(vector6(step)))), x);
       break;
-    case Space::expmap:
-      set_se3(normalized(compose(exp(swapped(vector6(step))), se3(x))), x);
+    case graph::Space::expmap:
+      set_se3(
+          normalized(compose(geometry::exp(geometry::swapped(vector6(step))), geometry::se3(x))),
+          x);
       break;
-    case Space::xy:
-    case Space::xyz:
-      for (int k = 0; k < space_dim(space); ++k) x[k] += step[k];
+    case graph::Space::xy:
+    case graph::Space::xyz:
+      for (int k = 0; k < graph::space_dim(space); ++k) x[k] += step[k];
       break;
     default:
       break;  // no steps
   }
 }
 
-void set_origin(Space space, double* x) {
-  std::fill_n(x, space_size(space), 0.0);
-  if (space == Space::se3 || space == Space::expmap) x[6] = 1;
+void set_origin(graph::Space space, double* x) {
+  std::fill_n(x, graph::space_size(space), 0.0);
+  if (space == graph::Space::se3 || space == graph::Space::expmap) x[6] = 1;
 }
 
-bool from_file(Space space, const double* numbers, double* x) {
-  std::copy_n(numbers, space_size(space), x);
-  if (space != Space::se3 && space != Space::expmap) return true;
-  if (se3(x).q.norm() < 1e-6) return false;
-  if (space == Space::expmap) set_se3(inverse(normalized(se3(x))), x);
+bool from_file(graph::Space space, const double* numbers, double* x) {
+  std::copy_n(numbers, graph::space_size(space), x);
+  if (space != graph::Space::se3 && space != graph::Space::expmap) return true;
+  if (geometry::se3(x).q.norm() < 1e-6) return false;
+  if (space == graph::Space::expmap) set_se3(inverse(normalized(geometry::se3(x))), x);
   return true;
 }
 
-void to_file(Space space, const double* x, double* numbers) {
-  std::copy_n(x, space_size(space), numbers);
-  if (space == Space::expmap) set_se3(inverse(se3(x)), numbers);
+void to_file(graph::Space space, const double* x, double* numbers) {
+  std::copy_n(x, graph::space_size(space), numbers);
+  if (space == graph::Space::expmap) set_se3(inverse(geometry::se3(x)), numbers);
 }
 
-}  // namespace sg
+}  // namespace sg::factor

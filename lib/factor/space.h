@@ -13,29 +13,29 @@
 
 #include "lib/graph/types.h"
 
-namespace sg {
+namespace sg::factor {
 
 // Whether there are steps of this space here; the functions below take no other. An estimate has
 // as many numbers in memory as in a vertex line.
-constexpr bool has_steps(Space space) {
-  return space == Space::se2 || space == Space::se3 || space == Space::expmap ||
-         space == Space::xy || space == Space::xyz;
+constexpr bool has_steps(graph::Space space) {
+  return space == graph::Space::se2 || space == graph::Space::se3 ||
+         space == graph::Space::expmap || space == graph::Space::xy || space == graph::Space::xyz;
 }
 
 // Whether a scalar of a step turns, in radians or halves of them; the others move, in metres.
-constexpr bool is_turn(Space space, int scalar) {
-  if (space == Space::expmap) return scalar < 3;
-  return (space == Space::se2 && scalar == 2) || (space == Space::se3 && scalar >= 3);
+constexpr bool is_turn(graph::Space space, int scalar) {
+  if (space == graph::Space::expmap) return scalar < 3;
+  return (space == graph::Space::se2 && scalar == 2) || (space == graph::Space::se3 && scalar >= 3);
 }
 
 // x := x (+) step.
-void retract(Space space, const double* step, double* x);
+void retract(graph::Space space, const double* step, double* x);
 
 // Identity, the origin.
-void set_origin(Space space, double* x);
+void set_origin(graph::Space space, double* x);
 
 // A vertex line's numbers to an estimate and back. False for a quaternion of length zero.
-bool from_file(Space space, const double* numbers, double* x);
-void to_file(Space space, const double* x, double* numbers);
+bool from_file(graph::Space space, const double* numbers, double* x);
+void to_file(graph::Space space, const double* x, double* numbers);
 
-}  // namespace sg
+}  // namespace sg::factor

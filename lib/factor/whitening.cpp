@@ -3,7 +3,7 @@
 #include "lib/geometry/information.h"
 #include "lib/geometry/triangle.h"
 
-namespace sg {
+namespace sg::factor {
 namespace {
 
 // Eigenvalues this far below zero, relative to the largest, are rounding of the numbers in the
@@ -13,15 +13,15 @@ constexpr double rounding = 1e-6;
 }  // namespace
 
 bool whitening(std::span<const double> triangle, int dim, double* U) {
-  const auto W = symmetric<SmallMatrix>(triangle, dim);
-  Eigen::Map<SmallMatrix> root(U, dim, dim);
+  const auto W = geometry::symmetric<geometry::SmallMatrix>(triangle, dim);
+  Eigen::Map<geometry::SmallMatrix> root(U, dim, dim);
   if (W.isDiagonal(0) && (W.diagonal().array() >= 0).all()) {
-    root = SmallMatrix(W.diagonal().cwiseSqrt().asDiagonal());
+    root = geometry::SmallMatrix(W.diagonal().cwiseSqrt().asDiagonal());
     return true;
   }
-  const SquareRoot found = square_root(W);
+  const geometry::SquareRoot found = geometry::square_root(W);
   root = found.U;
   return !(found.least < -rounding);
 }
 
-}  // namespace sg
+}  // namespace sg::factor

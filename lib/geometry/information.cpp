@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-namespace sg {
+namespace sg::geometry {
 namespace {
 
 template <class Matrix>
@@ -49,4 +49,4 @@ SmallMatrix triangular_square_root(const SmallMatrix& W) {
   return Eigen::HouseholderQR<SmallMatrix>(root.U).matrixQR().triangularView<Eigen::Upper>();
 }
 
-}  // namespace sg
+}  // namespace sg::geometry

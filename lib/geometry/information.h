@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace sg {
+namespace sg::geometry {
 
 // (A^-1 + B^-1)^-1, without the inverses: A (A + B)^+ B, which also holds for singular A and B (the parallel sum of
 // Anderson and Duffin, 1969). It is what is known of d1 + d2 when d1 and d2 are independent.
@@ -31,4 +31,4 @@ SquareRoot square_root(const SmallMatrix& W);
 // The upper triangle R with R' R = W.
 SmallMatrix triangular_square_root(const SmallMatrix& W);
 
-}  // namespace sg
+}  // namespace sg::geometry

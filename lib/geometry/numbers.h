@@ -9,7 +9,7 @@
 #include "lib/geometry/se2.h"
 #include "lib/geometry/se3.h"
 
-namespace sg {
+namespace sg::geometry {
 
 inline Eigen::Map<const Eigen::Vector2d> vector2(const double* x) {
   return Eigen::Map<const Eigen::Vector2d>(x);
@@ -37,4 +37,4 @@ inline void set_se3(const SE3& a, double* x) {
   std::ranges::copy(numbers_of(a), x);
 }
 
-}  // namespace sg
+}  // namespace sg::geometry

@@ -5,7 +5,7 @@
 
 #include "lib/geometry/information.h"
 
-namespace sg {
+namespace sg::geometry {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -81,4 +81,4 @@ UncertainSE2 inverse(const UncertainSE2& a) {
   return {mean, back.transpose() * a.information * back};
 }
 
-}  // namespace sg
+}  // namespace sg::geometry

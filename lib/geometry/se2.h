@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-namespace sg {
+namespace sg::geometry {
 
 struct SE2 {
   double x = 0;
@@ -46,4 +46,8 @@ struct UncertainSE2 {
 UncertainSE2 compose(const UncertainSE2& a, const UncertainSE2& b);
 UncertainSE2 inverse(const UncertainSE2& a);
 
+}  // namespace sg::geometry
+
+namespace sg {
+using geometry::SE2;
 }  // namespace sg

@@ -6,7 +6,7 @@
 
 #include "lib/geometry/information.h"
 
-namespace sg {
+namespace sg::geometry {
 namespace {
 
 using Eigen::Matrix3d;
@@ -177,4 +177,4 @@ UncertainSE3 inverse(const UncertainSE3& a) {
   return {mean, back.transpose() * a.information * back};
 }
 
-}  // namespace sg
+}  // namespace sg::geometry

@@ -15,7 +15,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace sg {
+namespace sg::geometry {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -73,4 +73,10 @@ struct UncertainSE3 {
 UncertainSE3 compose(const UncertainSE3& a, const UncertainSE3& b);
 UncertainSE3 inverse(const UncertainSE3& a);
 
+}  // namespace sg::geometry
+
+namespace sg {
+using geometry::Matrix6d;
+using geometry::SE3;
+using geometry::Vector6d;
 }  // namespace sg

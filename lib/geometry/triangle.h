@@ -6,7 +6,7 @@
 #include <cassert>
 #include <span>
 
-namespace sg {
+namespace sg::geometry {
 
 // Its entries for an n x n matrix.
 template <class Integer>
@@ -47,4 +47,4 @@ inline bool is_diagonal(std::span<const double> triangle, int n) {
   return true;
 }
 
-}  // namespace sg
+}  // namespace sg::geometry

@@ -9,7 +9,7 @@
 #include "lib/geometry/triangle.h"
 #include "lib/graph/components.h"
 
-namespace sg {
+namespace sg::graph {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -49,10 +49,10 @@ void check_information(const Graph& graph, Index e, const Numbers& numbers, Find
   const Index measurement = repeats * type.measurement;
   const std::int64_t dim = type.counted ? measurement : type.dim;
   const auto given = static_cast<std::int64_t>(numbers.size()) - measurement;
-  if (dim == 0 || given < triangle_size(dim)) return;
+  if (dim == 0 || given < geometry::triangle_size(dim)) return;
   const double* const w = numbers.data() + measurement;
-  const auto size = static_cast<std::size_t>(triangle_size(dim));
-  if (!semidefinite(symmetric<Eigen::MatrixXd>({w, size}, dim))) {
+  const auto size = static_cast<std::size_t>(geometry::triangle_size(dim));
+  if (!semidefinite(geometry::symmetric<Eigen::MatrixXd>({w, size}, dim))) {
     findings.push_back({graph.edge_line[e], true,
                         "the information matrix of " + type.tag + " is not positive semidefinite"});
   }
@@ -209,4 +209,4 @@ std::vector<Finding> check(const Graph& graph) {
   return findings;
 }
 
-}  // namespace sg
+}  // namespace sg::graph

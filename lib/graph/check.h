@@ -7,7 +7,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::graph {
 
 struct Finding {
   Offset line;  // `implied` where no line is meant
@@ -29,4 +29,4 @@ struct Finding {
 // a system singular depends on the estimates, and is a solver's to find.
 std::vector<Finding> check(const Graph& graph);
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -3,7 +3,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cassert>
 
-namespace sg {
+namespace sg::graph {
 
 Components components(const Graph& graph) {
   return components(graph, std::vector<bool>(graph.edges(), false));
@@ -36,4 +36,4 @@ std::vector<Index> sizes(const Components& components) {
   return size;
 }
 
-}  // namespace sg
+}  // namespace sg::graph

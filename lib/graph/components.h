@@ -5,7 +5,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::graph {
 
 struct Components {
   Index count = 0;
@@ -18,4 +18,4 @@ Components components(const Graph& graph, const std::vector<bool>& edge_removed)
 // Number of vertices of every component.
 std::vector<Index> sizes(const Components& components);
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -4,7 +4,7 @@
 
 #include "lib/graph/components.h"
 
-namespace sg {
+namespace sg::graph {
 namespace {
 
 // The edges all of whose vertices are in the part.
@@ -72,4 +72,4 @@ Part of_ids(const Graph& graph, const std::vector<std::pair<Id, Id>>& ranges) {
   return part;
 }
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -7,7 +7,7 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/replay.h"
 
-namespace sg {
+namespace sg::graph {
 
 struct Part {
   std::vector<bool> vertex;  // n
@@ -30,4 +30,4 @@ Part largest_component(const Graph& graph);
 // The vertices whose id lies in one of the closed ranges, and the edges among them.
 Part of_ids(const Graph& graph, const std::vector<std::pair<Id, Id>>& ranges);
 
-}  // namespace sg
+}  // namespace sg::graph

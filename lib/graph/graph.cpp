@@ -8,17 +8,17 @@
 #include "lib/text/error.h"
 #include "lib/text/line.h"
 
-namespace sg {
+namespace sg::graph {
 namespace {
 
 void parse_rest(const Graph& graph, Offset line, std::string_view rest,
                 std::vector<double>& numbers) {
   numbers.clear();
   while (true) {
-    const auto word = next_word(rest);
+    const auto word = text::next_word(rest);
     if (word.empty()) return;
-    const auto value = parse<double>(word);
-    if (!value) throw error_at(graph, line, quoted(word) + " is not a number");
+    const auto value = text::parse<double>(word);
+    if (!value) throw error_at(graph, line, text::quoted(word) + " is not a number");
     numbers.push_back(*value);
   }
 }
@@ -26,7 +26,7 @@ void parse_rest(const Graph& graph, Offset line, std::string_view rest,
 // The rest of a line after its tag and `words` more words.
 std::string_view after(const Graph& graph, Offset line, std::size_t words) {
   auto rest = line_at(graph, line);
-  for (std::size_t k = 0; k <= words; ++k) next_word(rest);
+  for (std::size_t k = 0; k <= words; ++k) text::next_word(rest);
   return rest;
 }
 
@@ -53,7 +53,7 @@ std::optional<Index> find_vertex(const Graph& graph, Id id) {
 std::string_view line_at(const Graph& graph, Offset line) {
   assert(line != implied);
   auto rest = graph.text.view.substr(static_cast<std::size_t>(line));
-  return next_line(rest);
+  return text::next_line(rest);
 }
 
 std::size_t line_number(const Graph& graph, Offset line) {
@@ -61,8 +61,8 @@ std::size_t line_number(const Graph& graph, Offset line) {
   return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
 }
 
-Error error_at(const Graph& graph, Offset line, const std::string& cause) {
-  return input_error(graph.file, line == implied ? 0 : line_number(graph, line), cause);
+text::Error error_at(const Graph& graph, Offset line, const std::string& cause) {
+  return text::input_error(graph.file, line == implied ? 0 : line_number(graph, line), cause);
 }
 
 void vertex_numbers(const Graph& graph, Index v, std::vector<double>& numbers) {
@@ -84,7 +84,7 @@ std::vector<Id> edge_params(const Graph& graph, Index e) {
   auto rest = after(graph, graph.edge_line[e], id_words(graph, e));
   std::vector<Id> ids(graph.type_of_edge(e).params.size);
   for (Id& id : ids) {
-    const auto value = parse<Id>(next_word(rest));
+    const auto value = text::parse<Id>(text::next_word(rest));
     if (!value) throw error_at(graph, graph.edge_line[e], "a parameter id is missing");
     id = *value;
   }
@@ -109,4 +109,4 @@ std::vector<Index> file_order(const Graph& graph) {
   return order;
 }
 
-}  // namespace sg
+}  // namespace sg::graph

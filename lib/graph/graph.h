@@ -17,13 +17,19 @@
 #include <vector>
 
 #include "lib/graph/tags.h"
+#include "lib/text/error.h"
 #include "lib/text/text.h"
 
+// What every folder says without its namespace.
 namespace sg {
 
 using Index = std::int32_t;   // of vertices, variables, edges, factors
 using Id = std::int64_t;      // as the file writes it: 0 .. 2^63-1
 using Offset = std::int64_t;  // of the first byte of a line's content in Graph::text
+
+}  // namespace sg
+
+namespace sg::graph {
 
 constexpr Offset implied = -1;  // the line of a vertex that only its edges mention
 
@@ -35,7 +41,7 @@ struct Param {
 
 struct Graph {
   std::string file;  // its name in messages
-  Text text;
+  text::Text text;
   Tags tags;
 
   std::vector<Id> id;                  // n, strictly ascending
@@ -80,8 +86,7 @@ std::string_view line_at(const Graph&& graph, Offset line) = delete;  // it poin
 std::size_t line_number(const Graph& graph, Offset line);
 
 // An input Error at that line of the graph's file.
-struct Error;
-Error error_at(const Graph& graph, Offset line, const std::string& cause);
+text::Error error_at(const Graph& graph, Offset line, const std::string& cause);
 
 // The numbers of a vertex line after its id; of an edge line after its vertex and parameter ids; of
 // a parameter line after its id. Information is given row by row, whatever order its line has it
@@ -96,4 +101,8 @@ std::vector<Id> edge_params(const Graph& graph, Index e);
 // edges-only file.
 std::vector<Index> file_order(const Graph& graph);
 
+}  // namespace sg::graph
+
+namespace sg {
+using graph::Graph;
 }  // namespace sg

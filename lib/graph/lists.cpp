@@ -4,11 +4,11 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::graph {
 
 Index item_count(std::size_t items) {
   if (items > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
-    throw computation_error(
+    throw text::computation_error(
         "the graph is too dense: more than 2^31 - 1 neighbours, separators or observations");
   }
   return static_cast<Index>(items);
@@ -30,4 +30,4 @@ Lists<> transpose(const Lists<>& lists, Index count) {
   });
 }
 
-}  // namespace sg
+}  // namespace sg::graph

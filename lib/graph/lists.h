@@ -11,7 +11,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::graph {
 
 // So many items as an Index. Throws a computation Error where that is too narrow: what lists hold
 // (neighbours, separators, observations) can be more than 2^31 - 1 in a small file already.
@@ -67,4 +67,4 @@ Lists<> grouped(std::span<const Index> list_of, Index count);
 // For every item 0 .. count - 1 the lists that hold it, ascending.
 Lists<> transpose(const Lists<>& lists, Index count);
 
-}  // namespace sg
+}  // namespace sg::graph

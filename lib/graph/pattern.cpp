@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sg {
+namespace sg::graph {
 namespace {
 
 GraphPattern pattern_of(const Graph& graph, const auto& has_vertex, const auto& has_edge) {
@@ -79,4 +79,4 @@ Adjacency adjacency(const Pattern& pattern) {
   return result;
 }
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -8,7 +8,7 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/lists.h"
 
-namespace sg {
+namespace sg::graph {
 
 struct Pattern {
   std::vector<int> dim;  // n: tangent dimension of every variable
@@ -46,4 +46,4 @@ inline Lists<> columns(const Pattern& pattern) {
 using Adjacency = Lists<>;
 Adjacency adjacency(const Pattern& pattern);
 
-}  // namespace sg
+}  // namespace sg::graph

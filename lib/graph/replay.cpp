@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sg {
+namespace sg::graph {
 namespace {
 
 // The last pose index of an edge, -1 where it joins no pose.
@@ -142,4 +142,4 @@ Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs) {
   return result;
 }
 
-}  // namespace sg
+}  // namespace sg::graph

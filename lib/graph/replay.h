@@ -6,7 +6,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::graph {
 
 enum class EdgeRole : std::uint8_t {
   odometry,      // joins two poses of consecutive index
@@ -41,4 +41,4 @@ struct Replay {
 };
 Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs = 1);
 
-}  // namespace sg
+}  // namespace sg::graph

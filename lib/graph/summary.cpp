@@ -5,7 +5,7 @@
 #include "lib/graph/components.h"
 #include "lib/graph/replay.h"
 
-namespace sg {
+namespace sg::graph {
 namespace {
 
 void count_vertices(const Graph& graph, Summary& summary) {
@@ -73,4 +73,4 @@ std::optional<double> average_observations(const Graph& graph) {
   return static_cast<double>(observations) / static_cast<double>(landmarks);
 }
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -6,7 +6,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::graph {
 
 struct Summary {
   Index poses = 0;
@@ -30,4 +30,4 @@ Summary summarize(const Graph& graph);
 // Mean number of edges to poses that a landmark has; nothing without landmarks.
 std::optional<double> average_observations(const Graph& graph);
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -6,7 +6,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::graph {
 namespace {
 
 VertexType vertex_type(const VertexRow& row) {
@@ -32,7 +32,7 @@ EdgeType edge_type(const EdgeRow& row) {
 template <class Type>
 void add(Tags& tags, std::vector<Type>& types, LineKind kind, Type type) {
   if (types.size() > std::numeric_limits<TypeIndex>::max()) {
-    throw usage_error("no more than 256 types of vertices and of edges can be told apart");
+    throw text::usage_error("no more than 256 types of vertices and of edges can be told apart");
   }
   tags.meaning[type.tag] = {kind, static_cast<TypeIndex>(types.size())};
   types.push_back(std::move(type));
@@ -82,8 +82,8 @@ bool known(const Tags& tags, std::string_view tag, const std::string& call, cons
   const TagMeaning* meaning = tags.find(tag);
   if (!meaning) return false;
   if (same(*meaning)) return true;
-  throw usage_error(call + ": " + std::string(tag) + " is known already, as " +
-                    described(tags, *meaning));
+  throw text::usage_error(call + ": " + std::string(tag) + " is known already, as " +
+                          described(tags, *meaning));
 }
 
 }  // namespace
@@ -128,15 +128,16 @@ void teach_vertex(Tags& tags, std::string_view spec) {
     if (known(tags, tag, "--vertex " + std::string(spec), same)) return;
     return add(tags, tags.vertices, LineKind::vertex, {std::string(tag), dim, role});
   }
-  throw usage_error("--vertex wants TAG:DIM:ROLE with ROLE pose, landmark or other, not '" +
-                    std::string(spec) + "'");
+  throw text::usage_error("--vertex wants TAG:DIM:ROLE with ROLE pose, landmark or other, not '" +
+                          std::string(spec) + "'");
 }
 
 void teach_edge(Tags& tags, std::string_view spec) {
   auto tag = spec;
   const int arity = positive(take_last(tag));
   if (arity == 0 || tag.empty()) {
-    throw usage_error("--edge wants TAG:ARITY, as in EDGE_MINE:2, not '" + std::string(spec) + "'");
+    throw text::usage_error("--edge wants TAG:ARITY, as in EDGE_MINE:2, not '" + std::string(spec) +
+                            "'");
   }
   const auto same = [&](const TagMeaning& meaning) {
     return meaning.kind == LineKind::edge && tags.edges[meaning.type].arity == arity &&
@@ -147,10 +148,10 @@ void teach_edge(Tags& tags, std::string_view spec) {
 }
 
 void teach_params(Tags& tags, std::string_view tag) {
-  if (tag.empty()) throw usage_error("--params wants a TAG");
+  if (tag.empty()) throw text::usage_error("--params wants a TAG");
   const auto same = [](const TagMeaning& meaning) { return meaning.kind == LineKind::param; };
   if (known(tags, tag, "--params " + std::string(tag), same)) return;
   tags.meaning[std::string(tag)] = {LineKind::param, static_cast<TypeIndex>(ParamTag::unknown)};
 }
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -10,7 +10,7 @@
 
 #include "lib/graph/types.h"
 
-namespace sg {
+namespace sg::graph {
 
 std::string_view name(Role role);
 
@@ -63,4 +63,4 @@ void teach_vertex(Tags& tags, std::string_view spec);
 void teach_edge(Tags& tags, std::string_view spec);
 void teach_params(Tags& tags, std::string_view tag);
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -12,7 +12,7 @@
 #include <initializer_list>
 #include <string_view>
 
-namespace sg {
+namespace sg::graph {
 
 // ---- Spaces: what an estimate or a measurement is, and how a line writes it. `none` is not known,
 // or has no place at all: pixels, a bearing.
@@ -333,4 +333,4 @@ constexpr bool in_order(const auto& table, auto key) {
 static_assert(in_order(space_rows, &SpaceRow::space) && in_order(vertex_rows, &VertexRow::type) &&
               in_order(param_rows, &ParamRow::type) && in_order(edge_rows, &EdgeRow::type));
 
-}  // namespace sg
+}  // namespace sg::graph

@@ -9,22 +9,22 @@
 #include "lib/order/methods.h"
 #include "lib/text/error.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
 void check(int status) {
   if (status != AMD_OK)
-    throw computation_error("AMD failed (status " + std::to_string(status) + ")");
+    throw text::computation_error("AMD failed (status " + std::to_string(status) + ")");
 }
 
 }  // namespace
 
-Order amd(const Pattern& pattern, const OrderOptions& options) {
+graph::Order amd(const graph::Pattern& pattern, const OrderOptions& options) {
   const Index n = pattern.variables();
-  const Adjacency graph = adjacency(pattern);
+  const graph::Adjacency graph = graph::adjacency(pattern);
   if (graph.items.empty()) return id(pattern, options);  // AMD takes no empty arrays
   const std::vector<int> set = constraint_sets(n, options.last);
-  Order order(n);
+  graph::Order order(n);
   if (set.empty()) {
     check(amd_order(n, graph.begin.data(), graph.items.data(), order.data(), nullptr, nullptr));
   } else {
@@ -34,4 +34,4 @@ Order amd(const Pattern& pattern, const OrderOptions& options) {
   return order;
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

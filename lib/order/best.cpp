@@ -27,7 +27,7 @@
 #include "lib/order/supervariables.h"
 #include "lib/order/wmf.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
 constexpr int tries_a_round = 16;
@@ -49,19 +49,19 @@ struct Clock {
 
 // What all tries of a round share.
 struct Search {
-  const Pattern& pattern;
+  const graph::Pattern& pattern;
   const OrderOptions& options;
-  Adjacency graph;
+  graph::Adjacency graph;
   std::vector<int> stage;  // 1 of the variables of `last`
   OrderedElimination best;
   std::vector<double> cost;  // running sum of the costs of best's variables
 };
 
 struct Try {
-  Order order;                 // of a restart that is better; empty otherwise
+  graph::Order order;          // of a restart that is better; empty otherwise
   Index begin = 0;             // positions that a local improvement reorders
   std::vector<Index> subtree;  // empty without one
-  Wide gain = 0;
+  elim::Wide gain = 0;
 };
 
 void take(Search& search, OrderedElimination&& elimination) {
@@ -69,7 +69,8 @@ void take(Search& search, OrderedElimination&& elimination) {
   search.cost.clear();
   double sum = 0;
   for (std::size_t k = 0; k < search.best.count.size(); ++k) {
-    sum += to_double(elimination_cost(search.best.pattern.dim[k], search.best.count[k]));
+    sum +=
+        elim::to_double(elim::elimination_cost(search.best.pattern.dim[k], search.best.count[k]));
     search.cost.push_back(sum);
   }
 }
@@ -123,8 +124,9 @@ Try local(const Search& search, Draw draw) {
   const Region part = region(search.best, drawn_root(search, size, draw), size);
   GreedyOptions options = drawn_options(draw);
   options.stage = region_stages(search, part);
-  const Order order = greedy_fill(part.pattern, adjacency(part.pattern), options).order;
-  const Wide ec = region_ec(part, order);
+  const graph::Order order =
+      greedy_fill(part.pattern, graph::adjacency(part.pattern), options).order;
+  const elim::Wide ec = region_ec(part, order);
   Try found;
   if (ec < part.ec) {
     found.begin = search.best.first[part.root];
@@ -141,10 +143,10 @@ Try one_try(const Search& search, int number) {
 }
 
 // The best order with all local improvements that are apart, the largest first.
-Order with_improvements(const Search& search, std::vector<Try>& tries) {
+graph::Order with_improvements(const Search& search, std::vector<Try>& tries) {
   std::stable_sort(tries.begin(), tries.end(),
                    [](const Try& a, const Try& b) { return a.gain > b.gain; });
-  Order order = search.best.order;
+  graph::Order order = search.best.order;
   std::vector<char> touched(order.size(), false);
   for (const Try& found : tries) {
     const auto begin = touched.begin() + found.begin;
@@ -181,12 +183,12 @@ void take_best_method(Search& search, const Clock& clock) {
 
 // Whether the round improved the best.
 void take_round(Search& search, std::vector<Try>& tries, int done, const Clock& clock) {
-  const Wide before = search.best.ec;
+  const elim::Wide before = search.best.ec;
   const auto restarted =
       std::max_element(tries.begin(), tries.end(), [](const Try& a, const Try& b) {
         return (a.order.empty() ? 0 : a.gain) < (b.order.empty() ? 0 : b.gain);
       });
-  const Order fresh = restarted->order;
+  const graph::Order fresh = restarted->order;
   OrderedElimination improved = elimination(search.pattern, with_improvements(search, tries));
   std::string_view how = "local";
   if (!fresh.empty()) {
@@ -203,9 +205,9 @@ void take_round(Search& search, std::vector<Try>& tries, int done, const Clock& 
 
 }  // namespace
 
-Order best(const Pattern& pattern, const OrderOptions& options) {
+graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
   const Clock clock;
-  Search search{pattern, options, adjacency(pattern), {}, {}, {}};
+  Search search{pattern, options, graph::adjacency(pattern), {}, {}, {}};
   search.stage.assign(pattern.variables(), 0);
   for (Index j : options.last) search.stage.at(j) = 1;
   take_best_method(search, clock);
@@ -223,4 +225,4 @@ Order best(const Pattern& pattern, const OrderOptions& options) {
   return std::move(search.best.order);
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

@@ -7,11 +7,11 @@
 
 #include "lib/order/parts.h"
 
-namespace sg {
+namespace sg::order {
 
 using BoostGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
 
-inline BoostGraph boost_graph(const Adjacency& adjacency) {
+inline BoostGraph boost_graph(const graph::Adjacency& adjacency) {
   BoostGraph graph(adjacency.size());
   for (Index j = 0; j < adjacency.size(); ++j) {
     for (Index i : adjacency[j]) boost::add_edge(j, i, graph);
@@ -25,4 +25,4 @@ auto vertex_map(std::vector<Value>& values, const BoostGraph& graph) {
   return boost::make_iterator_property_map(values.begin(), boost::get(boost::vertex_index, graph));
 }
 
-}  // namespace sg
+}  // namespace sg::order

@@ -11,7 +11,7 @@
 #include "lib/order/methods.h"
 #include "lib/text/error.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
 // CCOLAMD sets aside "dense" rows and columns to save time, and so orders other graphs badly where
@@ -23,13 +23,13 @@ void keep_dense(double* knobs) {
 
 }  // namespace
 
-Order colamd(const Pattern& pattern, const OrderOptions& options) {
+graph::Order colamd(const graph::Pattern& pattern, const OrderOptions& options) {
   const Index n = pattern.variables();
   const Index m = pattern.rows.size();
-  Lists<> a = columns(pattern);
+  graph::Lists<> a = graph::columns(pattern);
   const std::size_t size = ccolamd_recommended(static_cast<int>(a.items.size()), m, n);
   if (size == 0 || size > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    throw computation_error("the graph is too large for CCOLAMD");
+    throw text::computation_error("the graph is too large for CCOLAMD");
   }
   a.items.resize(size);
   double knobs[CCOLAMD_KNOBS];
@@ -39,9 +39,10 @@ Order colamd(const Pattern& pattern, const OrderOptions& options) {
   std::vector<int> set = constraint_sets(n, options.last);
   const bool done = ccolamd(m, n, static_cast<int>(size), a.items.data(), a.begin.data(), knobs,
                             stats, set.empty() ? nullptr : set.data());
-  if (!done) throw computation_error("CCOLAMD failed (status " + std::to_string(stats[3]) + ")");
+  if (!done)
+    throw text::computation_error("CCOLAMD failed (status " + std::to_string(stats[3]) + ")");
   a.begin.pop_back();
   return std::move(a.begin);
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

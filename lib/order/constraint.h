@@ -6,7 +6,7 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::order {
 
 // Of every variable: 1 if it is one of `last`, 0 if not. Empty where this constrains nothing, that
 // is, for none or all of the variables.
@@ -18,4 +18,4 @@ inline std::vector<int> constraint_sets(Index n, const std::vector<Index>& last)
   return set;
 }
 
-}  // namespace sg
+}  // namespace sg::order

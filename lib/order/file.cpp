@@ -1,10 +1,10 @@
 // The order in which the file lists its vertices.
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 
-Order file(const Pattern& pattern, const OrderOptions& options) {
+graph::Order file(const graph::Pattern& pattern, const OrderOptions& options) {
   return options.file_order.empty() ? id(pattern, options) : options.file_order;
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

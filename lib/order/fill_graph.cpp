@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace sg {
+namespace sg::order {
 namespace {
 
 void note_change(FillGraph& g, Index v) {
@@ -156,8 +156,8 @@ void remove_simplicial(FillGraph& g, Index v, std::span<const Index> clique) {
 }
 
 // Edges from every live variable to its neighbours of higher (degree, index).
-Adjacency upward(FillGraph& g) {
-  Adjacency up;
+graph::Adjacency upward(FillGraph& g) {
+  graph::Adjacency up;
   for (Index v = 0; v < static_cast<Index>(g.list.size()); ++v) {
     if (g.variables.alive[v]) {
       for (Index w : neighbours(g, v)) {
@@ -182,7 +182,7 @@ void bound_fill(FillGraph& g) {
 // Every triangle takes the weight of an edge off the fill of the vertex opposite. Each is found
 // once, at its lowest vertex (the "forward" algorithm: Schank, Wagner 2005).
 void count_fill(FillGraph& g, std::int64_t work_limit) {
-  const Adjacency up = upward(g);
+  const graph::Adjacency up = upward(g);
   std::int64_t work = 0;
   for (Index w : up.items) work += up.begin[w + 1] - up.begin[w];
   g.exact = work <= work_limit;
@@ -206,8 +206,8 @@ void count_fill(FillGraph& g, std::int64_t work_limit) {
 
 }  // namespace
 
-FillGraph fill_graph(const Adjacency& graph, const std::vector<int>& dim, std::vector<int> stage,
-                     std::int64_t work_limit) {
+FillGraph fill_graph(const graph::Adjacency& graph, const std::vector<int>& dim,
+                     std::vector<int> stage, std::int64_t work_limit) {
   const Index n = graph.size();
   assert(static_cast<Index>(dim.size()) == n);
   assert(stage.empty() || static_cast<Index>(stage.size()) == n);
@@ -264,10 +264,10 @@ Index better_first(FillGraph& g, Index v) {
   for (Index i : neighbours(g, v)) {
     const std::int64_t front_i = g.fill[i].weight + g.degree[i];
     if (front_i > front_v || g.stage[i] != g.stage[v]) continue;
-    const Wide i_first = elimination_cost(g.fill[i].weight, front_i) +
-                         elimination_cost(g.fill[v].weight, front_v - g.fill[i].weight);
-    const Wide v_first = elimination_cost(g.fill[v].weight, front_v) +
-                         elimination_cost(g.fill[i].weight, front_v - g.fill[v].weight);
+    const elim::Wide i_first = elim::elimination_cost(g.fill[i].weight, front_i) +
+                               elim::elimination_cost(g.fill[v].weight, front_v - g.fill[i].weight);
+    const elim::Wide v_first = elim::elimination_cost(g.fill[v].weight, front_v) +
+                               elim::elimination_cost(g.fill[i].weight, front_v - g.fill[v].weight);
     if (i_first < v_first && all_marked(g, i)) return i;
   }
   return v;
@@ -278,4 +278,4 @@ std::span<const Index> neighbours(FillGraph& g, Index v) {
   return {g.pool.data() + g.list[v].begin, static_cast<std::size_t>(g.list[v].size)};
 }
 
-}  // namespace sg
+}  // namespace sg::order

@@ -33,7 +33,7 @@
 
 #include "lib/order/supervariables.h"
 
-namespace sg {
+namespace sg::order {
 
 struct FillGraph {
   Supervariables variables;
@@ -72,8 +72,8 @@ struct FillGraph {
 
 // stage: of every variable; empty: one stage. work_limit: of counting the first fills, which is the
 // listing of all triangles: O(m^1.5) for m edges.
-FillGraph fill_graph(const Adjacency& graph, const std::vector<int>& dim, std::vector<int> stage,
-                     std::int64_t work_limit);
+FillGraph fill_graph(const graph::Adjacency& graph, const std::vector<int>& dim,
+                     std::vector<int> stage, std::int64_t work_limit);
 
 // Takes v, which must be alive, and all that merged into it. Needs an exact graph.
 void eliminate(FillGraph& graph, Index v);
@@ -90,4 +90,4 @@ Index better_first(FillGraph& graph, Index v);
 // The neighbours of v that are alive, without v.
 std::span<const Index> neighbours(FillGraph& graph, Index v);
 
-}  // namespace sg
+}  // namespace sg::order

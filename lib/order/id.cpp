@@ -3,12 +3,12 @@
 
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 
-Order id(const Pattern& pattern, const OrderOptions&) {
-  Order order(pattern.variables());
+graph::Order id(const graph::Pattern& pattern, const OrderOptions&) {
+  graph::Order order(pattern.variables());
   std::iota(order.begin(), order.end(), 0);
   return order;
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

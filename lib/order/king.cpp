@@ -9,20 +9,20 @@
 #include "lib/order/boost_graph.h"
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
-Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const ConnectedPart& part) {
   const BoostGraph graph = boost_graph(part.adjacency);
-  Order order(part.adjacency.size());
+  graph::Order order(part.adjacency.size());
   boost::king_ordering(graph, order.rbegin());
   return order;
 }
 
 }  // namespace
 
-Order king(const Pattern& pattern, const OrderOptions&) {
+graph::Order king(const graph::Pattern& pattern, const OrderOptions&) {
   return order_by_parts(pattern, order_part);
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

@@ -4,14 +4,14 @@
 
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 
-Order landmarks_first(const Pattern& pattern, const OrderOptions& options) {
-  Order order = id(pattern, options);
+graph::Order landmarks_first(const graph::Pattern& pattern, const OrderOptions& options) {
+  graph::Order order = id(pattern, options);
   if (options.landmark.empty()) return order;
   std::stable_partition(order.begin(), order.end(),
                         [&](Index j) -> bool { return options.landmark[j]; });
   return order;
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

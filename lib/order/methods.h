@@ -6,21 +6,21 @@
 
 #include "lib/order/order.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 
-Order amd(const Pattern& pattern, const OrderOptions& options);
-Order best(const Pattern& pattern, const OrderOptions& options);
-Order colamd(const Pattern& pattern, const OrderOptions& options);
-Order file(const Pattern& pattern, const OrderOptions& options);
-Order id(const Pattern& pattern, const OrderOptions& options);
-Order king(const Pattern& pattern, const OrderOptions& options);
-Order landmarks_first(const Pattern& pattern, const OrderOptions& options);
-Order metis(const Pattern& pattern, const OrderOptions& options);
-Order mmd(const Pattern& pattern, const OrderOptions& options);
-Order random(const Pattern& pattern, const OrderOptions& options);
-Order rcm(const Pattern& pattern, const OrderOptions& options);
-Order scotch(const Pattern& pattern, const OrderOptions& options);
-Order sloan(const Pattern& pattern, const OrderOptions& options);
-Order wmf(const Pattern& pattern, const OrderOptions& options);
+graph::Order amd(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order best(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order colamd(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order file(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order id(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order king(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order landmarks_first(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order metis(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order mmd(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order random(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order rcm(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order scotch(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order sloan(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order wmf(const graph::Pattern& pattern, const OrderOptions& options);
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

@@ -10,34 +10,34 @@
 #include "lib/order/parts.h"
 #include "lib/text/error.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
 static_assert(sizeof(idx_t) == sizeof(Index));
 
-Order order_part(ConnectedPart& part, std::uint64_t seed) {
+graph::Order order_part(ConnectedPart& part, std::uint64_t seed) {
   idx_t n = part.adjacency.size();
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_NUMBERING] = 0;
   if (seed != 0) options[METIS_OPTION_SEED] = static_cast<idx_t>(seed % 0x7fffffff);
   const bool alike = std::equal(part.dim.begin() + 1, part.dim.end(), part.dim.begin());
-  Order order(n);
-  Order position(n);
+  graph::Order order(n);
+  graph::Order position(n);
   const int status =
       METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.items.data(),
                    alike ? nullptr : part.dim.data(), options, order.data(), position.data());
   if (status != METIS_OK) {
-    throw computation_error("METIS failed (status " + std::to_string(status) + ")");
+    throw text::computation_error("METIS failed (status " + std::to_string(status) + ")");
   }
   return order;
 }
 
 }  // namespace
 
-Order metis(const Pattern& pattern, const OrderOptions& options) {
+graph::Order metis(const graph::Pattern& pattern, const OrderOptions& options) {
   return order_by_parts(pattern,
                         [&](ConnectedPart& part) { return order_part(part, options.seed); });
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

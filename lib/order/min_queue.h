@@ -7,7 +7,7 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::order {
 
 // Smallest key first; of equal keys the smallest rank. Ranks differ, so the order is strict.
 struct MinQueue {
@@ -96,4 +96,4 @@ inline Index pop(MinQueue& queue) {
   return v;
 }
 
-}  // namespace sg
+}  // namespace sg::order

@@ -4,19 +4,19 @@
 #include "lib/order/boost_graph.h"
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
 // Boost looks one place beyond its lists by degree when vertices of the largest degree possible go.
 // A vertex without neighbours, which goes first and costs nothing, makes the lists longer by one.
-Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const ConnectedPart& part) {
   BoostGraph graph = boost_graph(part.adjacency);
   const auto lone = static_cast<Index>(boost::add_vertex(graph));
   const auto n = boost::num_vertices(graph);
   std::vector<int> degree(n, 0);
   std::vector<int> position(n, 0);
   std::vector<int> supernode_size(n, 1);
-  Order order(n, 0);
+  graph::Order order(n, 0);
   boost::minimum_degree_ordering(graph, vertex_map(degree, graph), position.data(), order.data(),
                                  vertex_map(supernode_size, graph), 0,
                                  boost::get(boost::vertex_index, graph));
@@ -26,8 +26,8 @@ Order order_part(const ConnectedPart& part) {
 
 }  // namespace
 
-Order mmd(const Pattern& pattern, const OrderOptions&) {
+graph::Order mmd(const graph::Pattern& pattern, const OrderOptions&) {
   return order_by_parts(pattern, order_part);
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

@@ -18,7 +18,7 @@
 #include "lib/elim/score.h"
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::order {
 
 // How long an anytime ordering may go on: so many tries, or seconds where those are not 0.
 struct Budget {
@@ -33,7 +33,7 @@ struct Improvement {
   std::string_view how;  // a method's name, "restart" or "local"
   int tries;             // so far
   double seconds;        // so far
-  Wide ec;
+  elim::Wide ec;
 };
 
 // What an ordering may want to know beyond the pattern. Left empty, each field says nothing.
@@ -49,7 +49,7 @@ struct OrderOptions {
 struct Ordering {
   std::string_view name;
   std::string_view description;  // one line, lower case, for --help and the manual
-  Order (*compute)(const Pattern&, const OrderOptions&);
+  graph::Order (*compute)(const graph::Pattern&, const OrderOptions&);
 };
 
 // All orderings, in the order in which --help lists them.
@@ -61,12 +61,12 @@ const Ordering& find_ordering(std::string_view name);
 // and take it into account; of the others the order is computed without it, and the variables of
 // `last` are then moved to its end, in their relative order. Throws std::out_of_range where one of
 // them is no variable of the pattern.
-Order elimination_order(const Ordering& ordering, const Pattern& pattern,
-                        const OrderOptions& options = {});
-Order elimination_order(std::string_view name, const Pattern& pattern,
-                        const OrderOptions& options = {});
+graph::Order elimination_order(const Ordering& ordering, const graph::Pattern& pattern,
+                               const OrderOptions& options = {});
+graph::Order elimination_order(std::string_view name, const graph::Pattern& pattern,
+                               const OrderOptions& options = {});
 
 // The options that a graph answers by itself: file_order and landmark.
-OrderOptions order_options(const Graph& graph, const GraphPattern& pattern);
+OrderOptions order_options(const Graph& graph, const graph::GraphPattern& pattern);
 
-}  // namespace sg
+}  // namespace sg::order

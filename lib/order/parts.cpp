@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-namespace sg {
+namespace sg::order {
 namespace {
 
 // The variables that can be reached from `first`, ascending; marks them in `seen`.
-std::vector<Index> reachable(const Adjacency& graph, Index first, std::vector<bool>& seen) {
+std::vector<Index> reachable(const graph::Adjacency& graph, Index first, std::vector<bool>& seen) {
   std::vector<Index> found{first};
   seen[first] = true;
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -20,7 +20,7 @@ std::vector<Index> reachable(const Adjacency& graph, Index first, std::vector<bo
 }
 
 // `number` is scratch space of n.
-ConnectedPart part_of(const Pattern& pattern, const Adjacency& graph,
+ConnectedPart part_of(const graph::Pattern& pattern, const graph::Adjacency& graph,
                       const std::vector<Index>& variables, std::vector<Index>& number) {
   ConnectedPart part;
   for (std::size_t k = 0; k < variables.size(); ++k) {
@@ -36,13 +36,13 @@ ConnectedPart part_of(const Pattern& pattern, const Adjacency& graph,
 
 }  // namespace
 
-Order order_by_parts(const Pattern& pattern,
-                     const std::function<Order(ConnectedPart&)>& order_part) {
+graph::Order order_by_parts(const graph::Pattern& pattern,
+                            const std::function<graph::Order(ConnectedPart&)>& order_part) {
   const Index n = pattern.variables();
-  const Adjacency graph = adjacency(pattern);
+  const graph::Adjacency graph = graph::adjacency(pattern);
   std::vector<bool> seen(n, false);
   std::vector<Index> number(n);
-  Order order;
+  graph::Order order;
   order.reserve(n);
   for (Index j = 0; j < n; ++j) {
     if (seen[j]) continue;
@@ -57,4 +57,4 @@ Order order_by_parts(const Pattern& pattern,
   return order;
 }
 
-}  // namespace sg
+}  // namespace sg::order

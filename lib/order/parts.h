@@ -8,17 +8,17 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::order {
 
 // A connected part of the graph of A^T A, its variables renumbered 0..size-1 in their order.
 struct ConnectedPart {
-  Adjacency adjacency;
+  graph::Adjacency adjacency;
   std::vector<int> dim;
 };
 
 // Orders every part by itself, one after the other in order of their first variables. An ordering
 // costs what its parts cost together, so nothing is lost.
-Order order_by_parts(const Pattern& pattern,
-                     const std::function<Order(ConnectedPart&)>& order_part);
+graph::Order order_by_parts(const graph::Pattern& pattern,
+                            const std::function<graph::Order(ConnectedPart&)>& order_part);
 
-}  // namespace sg
+}  // namespace sg::order

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace sg {
+namespace sg::order {
 namespace {
 
 void free_list(std::vector<Index>& list) {
@@ -170,4 +170,4 @@ void eliminate(QuotientGraph& g, Index p) {
   g.members[p] = std::move(front);
 }
 
-}  // namespace sg
+}  // namespace sg::order

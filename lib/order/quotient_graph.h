@@ -28,7 +28,7 @@
 
 #include "lib/order/fill_graph.h"
 
-namespace sg {
+namespace sg::order {
 
 struct QuotientGraph {
   Supervariables variables;
@@ -54,4 +54,4 @@ QuotientGraph quotient_graph(FillGraph&& graph);
 // Takes p, which must be alive, and all that merged into it.
 void eliminate(QuotientGraph& graph, Index p);
 
-}  // namespace sg
+}  // namespace sg::order

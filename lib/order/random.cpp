@@ -5,16 +5,16 @@
 
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 
 // Fisher and Yates, written out: std::shuffle draws differently from library to library.
-Order random(const Pattern& pattern, const OrderOptions& options) {
+graph::Order random(const graph::Pattern& pattern, const OrderOptions& options) {
   boost::random::mt19937_64 generator(options.seed);
-  Order order = id(pattern, options);
+  graph::Order order = id(pattern, options);
   for (Index k = pattern.variables() - 1; k > 0; --k) {
     std::swap(order[k], order[boost::random::uniform_int_distribution<Index>(0, k)(generator)]);
   }
   return order;
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

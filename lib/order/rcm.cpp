@@ -4,20 +4,20 @@
 #include "lib/order/boost_graph.h"
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
-Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const ConnectedPart& part) {
   const BoostGraph graph = boost_graph(part.adjacency);
-  Order order(part.adjacency.size());
+  graph::Order order(part.adjacency.size());
   boost::cuthill_mckee_ordering(graph, order.rbegin());
   return order;
 }
 
 }  // namespace
 
-Order rcm(const Pattern& pattern, const OrderOptions&) {
+graph::Order rcm(const graph::Pattern& pattern, const OrderOptions&) {
   return order_by_parts(pattern, order_part);
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

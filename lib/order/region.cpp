@@ -7,7 +7,7 @@
 
 #include "lib/elim/counts.h"
 
-namespace sg {
+namespace sg::order {
 namespace {
 
 // The first position of every subtree.
@@ -55,7 +55,7 @@ Index first_row(const OrderedElimination& e, Index position) {
 }
 
 // Closes a row, its positions once each; one without any is none.
-void end_row(Lists<>& rows) {
+void end_row(graph::Lists<>& rows) {
   std::ranges::sort(rows.open());
   const auto row = rows.open();
   rows.items.resize(rows.items.size() - std::ranges::unique(row).size());
@@ -63,8 +63,8 @@ void end_row(Lists<>& rows) {
 }
 
 // The rows of R, in positions: those that R eliminates, and the separators of what hangs below it.
-Lists<> region_rows(const OrderedElimination& e, const std::vector<Index>& inside) {
-  Lists<> rows;
+graph::Lists<> region_rows(const OrderedElimination& e, const std::vector<Index>& inside) {
+  graph::Lists<> rows;
   const auto hanging = [&](Index child) {
     if (std::binary_search(inside.begin(), inside.end(), child)) return;
     for (Index r = first_row(e, e.first[child]), end = first_row(e, child + 1); r < end; ++r) {
@@ -85,17 +85,18 @@ Lists<> region_rows(const OrderedElimination& e, const std::vector<Index>& insid
 
 }  // namespace
 
-OrderedElimination elimination(const Pattern& pattern, const Order& order) {
-  const std::vector<Index> post = postorder(elimination_tree(ordered(pattern, order)));
+OrderedElimination elimination(const graph::Pattern& pattern, const graph::Order& order) {
+  const std::vector<Index> post =
+      elim::postorder(elim::elimination_tree(elim::ordered(pattern, order)));
   OrderedElimination e;
   e.order.reserve(order.size());
   for (Index k : post) e.order.push_back(order[k]);
-  e.pattern = ordered(pattern, e.order);
-  e.parent = elimination_tree(e.pattern);
+  e.pattern = elim::ordered(pattern, e.order);
+  e.parent = elim::elimination_tree(e.pattern);
   e.first = subtree_begin(e.parent);
-  e.count = column_counts(e.pattern, e.parent);
+  e.count = elim::column_counts(e.pattern, e.parent);
   for (std::size_t k = 0; k < e.count.size(); ++k) {
-    e.ec += elimination_cost(e.pattern.dim[k], e.count[k]);
+    e.ec += elim::elimination_cost(e.pattern.dim[k], e.count[k]);
   }
   return e;
 }
@@ -103,7 +104,7 @@ OrderedElimination elimination(const Pattern& pattern, const Order& order) {
 Region region(const OrderedElimination& e, Index root, Index size) {
   assert(0 <= root && root < static_cast<Index>(e.parent.size()) && size > 0);
   Region result{root, top_of_subtree(e, root, size), {}, 0};
-  Lists<>& rows = result.pattern.rows;
+  graph::Lists<>& rows = result.pattern.rows;
   rows = region_rows(e, result.inside);
   std::vector<Index> positions = result.inside;
   positions.insert(positions.end(), rows.items.begin(), rows.items.end());
@@ -114,22 +115,22 @@ Region region(const OrderedElimination& e, Index root, Index size) {
     const auto at = std::lower_bound(positions.begin(), positions.end(), k);
     k = static_cast<Index>(at - positions.begin());
   }
-  for (Index k : result.inside) result.ec += elimination_cost(e.pattern.dim[k], e.count[k]);
+  for (Index k : result.inside) result.ec += elim::elimination_cost(e.pattern.dim[k], e.count[k]);
   return result;
 }
 
-Wide region_ec(const Region& region, const Order& order) {
-  const Symbolic after = symbolic(region.pattern, order);
-  Wide ec = 0;
+elim::Wide region_ec(const Region& region, const graph::Order& order) {
+  const elim::Symbolic after = elim::symbolic(region.pattern, order);
+  elim::Wide ec = 0;
   for (std::size_t k = 0; k < region.inside.size(); ++k) {
-    ec += elimination_cost(after.dim[k], after.count[k]);
+    ec += elim::elimination_cost(after.dim[k], after.count[k]);
   }
   return ec;
 }
 
 std::vector<Index> reordered_subtree(const OrderedElimination& e, const Region& region,
-                                     const Order& order) {
-  assert(is_permutation(order, region.pattern.variables()));
+                                     const graph::Order& order) {
+  assert(graph::is_permutation(order, region.pattern.variables()));
   std::vector<Index> result;
   for (Index k = e.first[region.root]; k <= region.root; ++k) {
     if (!std::binary_search(region.inside.begin(), region.inside.end(), k)) {
@@ -142,4 +143,4 @@ std::vector<Index> reordered_subtree(const OrderedElimination& e, const Region& 
   return result;
 }
 
-}  // namespace sg
+}  // namespace sg::order

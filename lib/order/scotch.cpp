@@ -11,11 +11,11 @@
 #include "lib/order/parts.h"
 #include "lib/text/error.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
 void check(int status) {
-  if (status != 0) throw computation_error("Scotch failed");
+  if (status != 0) throw text::computation_error("Scotch failed");
 }
 
 // Scotch's objects are allocated, initialized, and at last taken down by functions of their own.
@@ -53,7 +53,7 @@ std::vector<SCOTCH_Num> numbers(const std::vector<Index>& values) {
   return {values.begin(), values.end()};
 }
 
-Order order_part(const ConnectedPart& part, std::uint64_t seed) {
+graph::Order order_part(const ConnectedPart& part, std::uint64_t seed) {
   const SCOTCH_Num n = part.adjacency.size();
   const auto begin = numbers(part.adjacency.begin);
   const auto neighbours = numbers(part.adjacency.items);
@@ -76,9 +76,9 @@ Order order_part(const ConnectedPart& part, std::uint64_t seed) {
 
 }  // namespace
 
-Order scotch(const Pattern& pattern, const OrderOptions& options) {
+graph::Order scotch(const graph::Pattern& pattern, const OrderOptions& options) {
   return order_by_parts(pattern,
                         [&](const ConnectedPart& part) { return order_part(part, options.seed); });
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

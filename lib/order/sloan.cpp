@@ -9,10 +9,10 @@
 #include "lib/order/boost_graph.h"
 #include "lib/order/methods.h"
 
-namespace sg::ordering {
+namespace sg::order::methods {
 namespace {
 
-Order order_part(const ConnectedPart& part) {
+graph::Order order_part(const ConnectedPart& part) {
   BoostGraph graph = boost_graph(part.adjacency);
   const std::size_t n = boost::num_vertices(graph);
   std::vector<boost::default_color_type> color(n, boost::white_color);
@@ -24,7 +24,7 @@ Order order_part(const ConnectedPart& part) {
   const auto start = boost::find_starting_node(graph, std::size_t{0}, color_map, degree_map);
   int eccentricity = 0;
   const auto end = boost::pseudo_peripheral_pair(graph, start, eccentricity, color_map, degree_map);
-  Order order(n);
+  graph::Order order(n);
   boost::sloan_ordering(graph, start, end, order.begin(), color_map, degree_map,
                         vertex_map(priority, graph));
   return order;
@@ -32,8 +32,8 @@ Order order_part(const ConnectedPart& part) {
 
 }  // namespace
 
-Order sloan(const Pattern& pattern, const OrderOptions&) {
+graph::Order sloan(const graph::Pattern& pattern, const OrderOptions&) {
   return order_by_parts(pattern, order_part);
 }
 
-}  // namespace sg::ordering
+}  // namespace sg::order::methods

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace sg {
+namespace sg::order {
 
 Supervariables supervariables(const std::vector<int>& dim) {
   const std::size_t n = dim.size();
@@ -29,7 +29,7 @@ void absorb(Supervariables& variables, Index kept, Index gone) {
 }
 
 void eliminate_members(Supervariables& variables, Index v, std::int64_t separator) {
-  Order& order = variables.order;
+  graph::Order& order = variables.order;
   const auto first = static_cast<std::ptrdiff_t>(order.size());
   for (Index member = v; member >= 0; member = variables.next[member]) order.push_back(member);
   const std::vector<int>& dim = variables.dim;
@@ -37,10 +37,10 @@ void eliminate_members(Supervariables& variables, Index v, std::int64_t separato
             [&](Index a, Index b) { return std::pair(dim[a], a) < std::pair(dim[b], b); });
   std::int64_t front = variables.weight[v] + separator;
   for (auto member = order.begin() + first; member != order.end(); ++member) {
-    variables.ec += elimination_cost(dim[*member], front);
+    variables.ec += elim::elimination_cost(dim[*member], front);
     front -= dim[*member];
   }
   variables.alive[v] = false;
 }
 
-}  // namespace sg
+}  // namespace sg::order

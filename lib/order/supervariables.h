@@ -8,7 +8,7 @@
 
 #include "lib/elim/score.h"
 
-namespace sg {
+namespace sg::order {
 
 struct Supervariables {
   std::vector<int> dim;     // n: of the variables themselves
@@ -16,8 +16,8 @@ struct Supervariables {
   std::vector<char> alive;  // n: v names a supervariable that is not yet eliminated
   std::vector<Index> next, tail;  // n: chains of members; next is -1 at a tail
 
-  Order order;  // eliminated so far
-  Wide ec = 0;  // its elimination complexity
+  graph::Order order;  // eliminated so far
+  elim::Wide ec = 0;   // its elimination complexity
 };
 Supervariables supervariables(const std::vector<int>& dim);
 
@@ -38,4 +38,4 @@ inline std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-}  // namespace sg
+}  // namespace sg::order

@@ -10,7 +10,7 @@
 #include "lib/order/min_queue.h"
 #include "lib/order/quotient_graph.h"
 
-namespace sg {
+namespace sg::order {
 namespace {
 
 std::int64_t fill(const FillGraph& g, Index v) {
@@ -104,7 +104,7 @@ void run(Graph& g, const Preference& preference, Predicate enough) {
 
 // Eliminates the rest of g by bounds. Its ec is one from above: mass elimination puts variables
 // before their pivot whose own fronts it does not know.
-Supervariables run_by_bounds(FillGraph&& g, const Preference& preference, Wide limit) {
+Supervariables run_by_bounds(FillGraph&& g, const Preference& preference, elim::Wide limit) {
   QuotientGraph rest = quotient_graph(std::move(g));
   run(rest, preference, [&](Index) { return rest.variables.ec > limit; });
   return std::move(rest.variables);
@@ -116,7 +116,7 @@ std::vector<int> stages(Index n, const std::vector<Index>& last) {
   return stage;
 }
 
-std::int64_t entries(const Adjacency& graph) {
+std::int64_t entries(const graph::Adjacency& graph) {
   return static_cast<std::int64_t>(graph.items.size()) + graph.size();
 }
 
@@ -125,18 +125,18 @@ void keep_better(GreedyResult& best, GreedyResult&& other) {
 }
 
 // Where the first pass was quick: plain fill, and minimum degree, which wins on some small graphs.
-void try_cheap(const Pattern& pattern, const Adjacency& graph, GreedyOptions greedy,
+void try_cheap(const graph::Pattern& pattern, const graph::Adjacency& graph, GreedyOptions greedy,
                GreedyResult& best) {
   greedy.score = FillScore::plain;
   greedy.limit = best.ec;
   keep_better(best, greedy_fill(pattern, graph, greedy));
-  Order amd = elimination_order("amd", pattern);
-  const Wide ec = elimination_complexity(pattern, amd);
+  graph::Order amd = elimination_order("amd", pattern);
+  const elim::Wide ec = elim::elimination_complexity(pattern, amd);
   keep_better(best, {std::move(amd), ec, 0});
 }
 
 // Where the graph is dense: bounds alone, which take a clique at a time.
-void try_bounds(const Pattern& pattern, const Adjacency& graph, GreedyOptions greedy,
+void try_bounds(const graph::Pattern& pattern, const graph::Adjacency& graph, GreedyOptions greedy,
                 GreedyResult& best) {
   greedy.exact_work = 0;
   greedy.limit = best.ec;
@@ -145,7 +145,7 @@ void try_bounds(const Pattern& pattern, const Adjacency& graph, GreedyOptions gr
 
 }  // namespace
 
-GreedyResult greedy_fill(const Pattern& pattern, const Adjacency& graph,
+GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
                          const GreedyOptions& options) {
   assert(graph.size() == pattern.variables());
   const std::int64_t work_limit = options.exact_work * entries(graph);
@@ -167,12 +167,12 @@ GreedyResult greedy_fill(const Pattern& pattern, const Adjacency& graph,
   result.ec = variables.ec;
   if (result.ec > options.limit) return result;
   result.order = std::move(variables.order);
-  result.ec = elimination_complexity(pattern, result.order);
+  result.ec = elim::elimination_complexity(pattern, result.order);
   return result;
 }
 
-Order wmf(const Pattern& pattern, const WmfOptions& options) {
-  const Adjacency graph = adjacency(pattern);
+graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
+  const graph::Adjacency graph = graph::adjacency(pattern);
   GreedyOptions greedy;
   greedy.stage = stages(pattern.variables(), options.last);
   greedy.seed = options.seed;
@@ -187,11 +187,11 @@ Order wmf(const Pattern& pattern, const WmfOptions& options) {
   return std::move(best.order);
 }
 
-namespace ordering {
+namespace methods {
 
-Order wmf(const Pattern& pattern, const OrderOptions& options) {
-  return sg::wmf(pattern, {options.last, options.seed});
+graph::Order wmf(const graph::Pattern& pattern, const OrderOptions& options) {
+  return order::wmf(pattern, {options.last, options.seed});
 }
 
-}  // namespace ordering
-}  // namespace sg
+}  // namespace methods
+}  // namespace sg::order

@@ -52,7 +52,7 @@
 #include "lib/elim/score.h"
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::order {
 
 // What the greedy minimizes at each step: the score above, or fill alone.
 enum class FillScore { balanced, plain };
@@ -64,17 +64,17 @@ struct GreedyOptions {
   double jitter = 0;       // scores are multiplied by 1 + jitter u, u in [0, 1) drawn per variable
   std::int64_t exact_work = 120;  // list entries looked at per variable and adjacency entry, in the
                                   // exact part
-  Wide limit = ~Wide{0};          // give up as soon as EC is above
+  elim::Wide limit = ~elim::Wide{0};  // give up as soon as EC is above
 };
 
 struct GreedyResult {
-  Order order;            // empty if EC went above the limit
-  Wide ec = 0;            // of `order`
+  graph::Order order;     // empty if EC went above the limit
+  elim::Wide ec = 0;      // of `order`
   std::int64_t work = 0;  // list entries looked at in the exact part
 };
 
 // One greedy pass. graph: adjacency(pattern).
-GreedyResult greedy_fill(const Pattern& pattern, const Adjacency& graph,
+GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
                          const GreedyOptions& options);
 
 struct WmfOptions {
@@ -83,6 +83,6 @@ struct WmfOptions {
 };
 
 // The better of the passes that the size of the graph affords.
-Order wmf(const Pattern& pattern, const WmfOptions& options = {});
+graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options = {});
 
-}  // namespace sg
+}  // namespace sg::order

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-namespace sg {
+namespace sg::prune {
 namespace {
 
 // An edge that lets a pose see a landmark. Wider than the role `observation`: a vertex that is
 // neither may take part in it.
-bool observes(const Graph& graph, const PoseIndex& poses, Index e) {
+bool observes(const Graph& graph, const graph::PoseIndex& poses, Index e) {
   const auto ends = graph.edge(e);
   return std::any_of(ends.begin(), ends.end(), [&](Index v) { return poses.index[v] >= 0; });
 }
@@ -16,7 +16,7 @@ struct Observations {
   std::vector<Index> count;    // of every vertex, as pruning leaves them
   std::vector<bool> observed;  // of every vertex, whether the input observes it
 };
-Observations count_observations(const Graph& graph, const PoseIndex& poses,
+Observations count_observations(const Graph& graph, const graph::PoseIndex& poses,
                                 const Removal& removal) {
   Observations result{std::vector<Index>(graph.vertices(), 0),
                       std::vector<bool>(graph.vertices(), false)};
@@ -34,17 +34,18 @@ Observations count_observations(const Graph& graph, const PoseIndex& poses,
 
 Candidates natural_candidates(const Graph& graph) {
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (graph.role(v) == Role::landmark) return Candidates::observations;
+    if (graph.role(v) == graph::Role::landmark) return Candidates::observations;
   }
   return Candidates::loops;
 }
 
-std::vector<Index> candidate_edges(const Graph& graph, const PoseIndex& poses, Candidates kind) {
+std::vector<Index> candidate_edges(const Graph& graph, const graph::PoseIndex& poses,
+                                   Candidates kind) {
   std::vector<Index> edges;
   for (Index e = 0; e < graph.edges(); ++e) {
-    const EdgeRole role = edge_role(graph, poses, e);
-    if ((role == EdgeRole::observation && kind != Candidates::loops) ||
-        (role == EdgeRole::loop_closure && kind != Candidates::observations)) {
+    const graph::EdgeRole role = graph::edge_role(graph, poses, e);
+    if ((role == graph::EdgeRole::observation && kind != Candidates::loops) ||
+        (role == graph::EdgeRole::loop_closure && kind != Candidates::observations)) {
       edges.push_back(e);
     }
   }
@@ -62,15 +63,16 @@ Removal removal_of_rest(const Graph& graph, const std::vector<Index>& candidates
   return removal;
 }
 
-void sweep_landmarks(const Graph& graph, const PoseIndex& poses, Index min_obs, Removal& removal) {
+void sweep_landmarks(const Graph& graph, const graph::PoseIndex& poses, Index min_obs,
+                     Removal& removal) {
   Observations seen = count_observations(graph, poses, removal);
   const auto swept = [&](Index v) {
-    return graph.role(v) == Role::landmark && !removal.vertex[v] && seen.observed[v] &&
+    return graph.role(v) == graph::Role::landmark && !removal.vertex[v] && seen.observed[v] &&
            seen.count[v] < min_obs;
   };
   // Not what joins dropped poses: that may be rewritten to join others.
   const auto swept_away = [&](Index v) {
-    return graph.role(v) == Role::landmark && removal.vertex[v];
+    return graph.role(v) == graph::Role::landmark && removal.vertex[v];
   };
   // An edge of several landmarks takes an observation from all of them when one leaves: again,
   // then, until nothing changes.
@@ -92,4 +94,4 @@ void sweep_landmarks(const Graph& graph, const PoseIndex& poses, Index min_obs, 
   }
 }
 
-}  // namespace sg
+}  // namespace sg::prune

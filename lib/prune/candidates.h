@@ -11,14 +11,15 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/replay.h"
 
-namespace sg {
+namespace sg::prune {
 
 enum class Candidates : std::uint8_t { observations, loops, both };
 
 // Observations where the graph has landmarks, loop closures where it has none.
 Candidates natural_candidates(const Graph& graph);
 // Edges, in file order.
-std::vector<Index> candidate_edges(const Graph& graph, const PoseIndex& poses, Candidates kind);
+std::vector<Index> candidate_edges(const Graph& graph, const graph::PoseIndex& poses,
+                                   Candidates kind);
 
 // What a policy removes from a graph.
 struct Removal {
@@ -33,6 +34,7 @@ Removal removal_of_rest(const Graph& graph, const std::vector<Index>& candidates
 // Removes the landmarks that are left with fewer than min_obs observations, with their edges, until
 // every landmark has enough. A landmark without any observation in the input (one that only a prior
 // knows, say) is not pruning's business and stays. O(edges).
-void sweep_landmarks(const Graph& graph, const PoseIndex& poses, Index min_obs, Removal& removal);
+void sweep_landmarks(const Graph& graph, const graph::PoseIndex& poses, Index min_obs,
+                     Removal& removal);
 
-}  // namespace sg
+}  // namespace sg::prune

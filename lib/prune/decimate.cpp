@@ -5,7 +5,7 @@
 #include <boost/random/uniform_int_distribution.hpp>
 #include <limits>
 
-namespace sg {
+namespace sg::prune {
 namespace {
 
 struct Sighting {
@@ -13,11 +13,11 @@ struct Sighting {
   Index landmark;  // vertex that is observed
 };
 
-Sighting sighting(const Graph& graph, const PoseIndex& poses, Index e) {
+Sighting sighting(const Graph& graph, const graph::PoseIndex& poses, Index e) {
   Sighting result{-1, -1};
   Index earliest = -1;
   for (Index v : graph.edge(e)) {
-    if (graph.role(v) == Role::landmark && result.landmark < 0) result.landmark = v;
+    if (graph.role(v) == graph::Role::landmark && result.landmark < 0) result.landmark = v;
     if (poses.index[v] < 0) continue;
     result.pose = std::max(result.pose, poses.index[v]);
     if (earliest < 0 || poses.index[v] < poses.index[earliest]) earliest = v;
@@ -26,7 +26,7 @@ Sighting sighting(const Graph& graph, const PoseIndex& poses, Index e) {
   return result;
 }
 
-std::vector<Index> first_offsets(const Graph& graph, const PoseIndex& poses,
+std::vector<Index> first_offsets(const Graph& graph, const graph::PoseIndex& poses,
                                  const std::vector<Index>& candidates, Index rate) {
   std::vector<Index> offset(graph.vertices(), std::numeric_limits<Index>::max());
   for (Index e : candidates) {
@@ -48,7 +48,7 @@ std::vector<Index> random_offsets(const Graph& graph, Index rate, std::uint64_t 
 
 }  // namespace
 
-std::vector<bool> decimate(const Graph& graph, const PoseIndex& poses,
+std::vector<bool> decimate(const Graph& graph, const graph::PoseIndex& poses,
                            const std::vector<Index>& candidates, Index rate, DecimationOffset kind,
                            std::uint64_t seed) {
   const std::vector<Index> offset =
@@ -63,4 +63,4 @@ std::vector<bool> decimate(const Graph& graph, const PoseIndex& poses,
   return kept;
 }
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -9,7 +9,7 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/replay.h"
 
-namespace sg {
+namespace sg::prune {
 
 enum class DecimationOffset : std::uint8_t {
   first,    // the pose index of the landmark's first observation, mod r: that one stays
@@ -20,8 +20,8 @@ enum class DecimationOffset : std::uint8_t {
 // Which of the candidates stay, side by side with them. The observing pose of an edge is its last;
 // its landmark is the first that it names. Of a loop closure, the earlier pose is the landmark.
 // rate >= 1; `seed` matters to random offsets alone. O(candidates + vertices).
-std::vector<bool> decimate(const Graph& graph, const PoseIndex& poses,
+std::vector<bool> decimate(const Graph& graph, const graph::PoseIndex& poses,
                            const std::vector<Index>& candidates, Index rate,
                            DecimationOffset offset, std::uint64_t seed);
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -6,37 +6,41 @@
 #include "lib/geometry/numbers.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::prune {
 namespace {
 
-Index pose_count(const PoseIndex& poses) {
+Index pose_count(const graph::PoseIndex& poses) {
   return static_cast<Index>(poses.pose.size());
 }
 
 SE3 estimate(const Graph& graph, Index v) {
   std::vector<double> n;
-  vertex_numbers(graph, v, n);
-  if (n.size() < 7) throw error_at(graph, graph.vertex_line[v], "a pose wants x y z qx qy qz qw");
-  return normalized(se3(n.data()));
+  graph::vertex_numbers(graph, v, n);
+  if (n.size() < 7)
+    throw graph::error_at(graph, graph.vertex_line[v], "a pose wants x y z qx qy qz qw");
+  return normalized(geometry::se3(n.data()));
 }
 
 // Throws unless all edges of step k can be composed, and fused if there are several.
-void require_composable(const Graph& graph, const Lists<>& odometry, Index k) {
+void require_composable(const Graph& graph, const graph::Lists<>& odometry, Index k) {
   for (Index e : odometry[k]) {
-    const EdgeType& type = graph.type_of_edge(e);
+    const graph::EdgeType& type = graph.type_of_edge(e);
     if (!is_motion(graph.edge_tag(e)) || graph.edge_type[e] != graph.edge_type[odometry[k][0]]) {
-      throw error_at(graph, graph.edge_line[e],
-                     "cannot compose odometry of type " + type.tag + " across dropped poses");
+      throw graph::error_at(
+          graph, graph.edge_line[e],
+          "cannot compose odometry of type " + type.tag + " across dropped poses");
     }
-    if (graph.edges_only && odometry[k].size() > 1 && graph.edge_tag(e) == EdgeTag::expmap) {
-      throw error_at(graph, graph.edge_line[e],
-                     "cannot fuse several " + type.tag + " of one step without pose estimates");
+    if (graph.edges_only && odometry[k].size() > 1 && graph.edge_tag(e) == graph::EdgeTag::expmap) {
+      throw graph::error_at(
+          graph, graph.edge_line[e],
+          "cannot fuse several " + type.tag + " of one step without pose estimates");
     }
   }
 }
 
 // The motion of step k, from pose k - 1 to pose k. Several edges are fused.
-Motion step_motion(const Graph& graph, const PoseIndex& poses, const Lists<>& odometry, Index k) {
+Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
+                   const graph::Lists<>& odometry, Index k) {
   std::vector<Motion> motions;
   for (Index e : odometry[k]) {
     const Motion forward_or_back = motion(graph, e).value();
@@ -49,7 +53,8 @@ Motion step_motion(const Graph& graph, const PoseIndex& poses, const Lists<>& od
 }
 
 // Nearest keyframe of every pose within its segment, the earlier of two equally near.
-std::vector<Index> nearest_keyframes(const Lists<>& odometry, const std::vector<bool>& keyframe) {
+std::vector<Index> nearest_keyframes(const graph::Lists<>& odometry,
+                                     const std::vector<bool>& keyframe) {
   const auto n = static_cast<Index>(keyframe.size());
   std::vector<Index> nearest(n);
   for (Index k = 0, last = 0; k < n; ++k) {
@@ -106,9 +111,9 @@ bool move_loop(Keyframing& kf, Index e) {
     return false;
   }
   if (!is_motion(kf.graph.edge_tag(e))) {
-    throw error_at(kf.graph, kf.graph.edge_line[e],
-                   "cannot move a loop closure of type " + kf.graph.type_of_edge(e).tag +
-                       " to keyframes (--loops drop leaves them out)");
+    throw graph::error_at(kf.graph, kf.graph.edge_line[e],
+                          "cannot move a loop closure of type " + kf.graph.type_of_edge(e).tag +
+                              " to keyframes (--loops drop leaves them out)");
   }
   kf.rewritten[e] = true;
   return true;
@@ -120,8 +125,9 @@ void refuse_motion_of_many(const Keyframing& kf, Index e) {
   for (Index v : kf.graph.edge(e)) {
     if (kf.poses.index[v] < 0) continue;
     if (first >= 0 && v != first) {
-      throw error_at(kf.graph, kf.graph.edge_line[e],
-                     "cannot compose " + kf.graph.type_of_edge(e).tag + " across dropped poses");
+      throw graph::error_at(
+          kf.graph, kf.graph.edge_line[e],
+          "cannot compose " + kf.graph.type_of_edge(e).tag + " across dropped poses");
     }
     first = v;
   }
@@ -131,9 +137,9 @@ void refuse_motion_of_many(const Keyframing& kf, Index e) {
 void settle_edges(Keyframing& kf, bool move_loops) {
   for (Index e = 0; e < kf.graph.edges(); ++e) {
     if (kf.rewritten[e] || kf.removal.edge[e] || !touches_dropped(kf, e)) continue;
-    const EdgeRole role = edge_role(kf.graph, kf.poses, e);
-    if (role == EdgeRole::other) refuse_motion_of_many(kf, e);
-    if (role == EdgeRole::loop_closure && move_loops && move_loop(kf, e)) continue;
+    const graph::EdgeRole role = graph::edge_role(kf.graph, kf.poses, e);
+    if (role == graph::EdgeRole::other) refuse_motion_of_many(kf, e);
+    if (role == graph::EdgeRole::loop_closure && move_loops && move_loop(kf, e)) continue;
     kf.removal.edge[e] = true;
     kf.dropped_priors += kf.graph.edge(e).size() == 1;
   }
@@ -141,7 +147,8 @@ void settle_edges(Keyframing& kf, bool move_loops) {
 
 bool moves_a_loop(const Keyframing& kf) {
   for (Index e = 0; e < kf.graph.edges(); ++e) {
-    if (kf.rewritten[e] && edge_role(kf.graph, kf.poses, e) == EdgeRole::loop_closure) return true;
+    if (kf.rewritten[e] && graph::edge_role(kf.graph, kf.poses, e) == graph::EdgeRole::loop_closure)
+      return true;
   }
   return false;
 }
@@ -195,18 +202,18 @@ std::pair<Index, Index> around(const Keyframing& kf, Index e) {
 
 }  // namespace
 
-Lists<> odometry_steps(const Graph& graph, const PoseIndex& poses) {
+graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses) {
   std::vector<Index> step(graph.edges(), -1);
   for (Index e = 0; e < graph.edges(); ++e) {
-    if (edge_role(graph, poses, e) != EdgeRole::odometry) continue;
+    if (graph::edge_role(graph, poses, e) != graph::EdgeRole::odometry) continue;
     const auto ends = graph.edge(e);
     step[e] = std::max(poses.index[ends[0]], poses.index[ends[1]]);
   }
-  return grouped(step, pose_count(poses));
+  return graph::grouped(step, pose_count(poses));
 }
 
-std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,
-                                   const Lists<>& odometry, const KeyframeRule& rule) {
+std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& poses,
+                                   const graph::Lists<>& odometry, const KeyframeRule& rule) {
   const Index n = pose_count(poses);
   std::vector<bool> keyframe(n);
   double travelled = 0, turned = 0;
@@ -228,8 +235,9 @@ std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,
   return keyframe;
 }
 
-Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Lists<>& odometry,
-                      const std::vector<bool>& keyframe, bool move_loops) {
+Keyframing keyframing(const Graph& graph, const graph::PoseIndex& poses,
+                      const graph::Lists<>& odometry, const std::vector<bool>& keyframe,
+                      bool move_loops) {
   const std::vector<bool> no_edge(graph.edges(), false);
   Keyframing kf{graph,
                 poses,
@@ -271,7 +279,7 @@ Motion travelled(const Keyframing& kf, Index from, Index to) {
 std::string rewritten_line(const Keyframing& kf, Index e) {
   const Graph& graph = kf.graph;
   const auto id = [&](Index k) { return graph.id[kf.poses.pose[k]]; };
-  if (edge_role(graph, kf.poses, e) == EdgeRole::odometry) {
+  if (graph::edge_role(graph, kf.poses, e) == graph::EdgeRole::odometry) {
     const auto [a, b] = around(kf, e);
     return edge_text(travelled(kf, a, b), id(a), id(b));
   }
@@ -283,4 +291,4 @@ std::string rewritten_line(const Keyframing& kf, Index e) {
   return edge_text(z, id(a), id(b));
 }
 
-}  // namespace sg
+}  // namespace sg::prune

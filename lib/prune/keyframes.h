@@ -21,7 +21,7 @@
 #include "lib/prune/candidates.h"
 #include "lib/prune/motion.h"
 
-namespace sg {
+namespace sg::prune {
 
 // Where keyframes stand; the first pose of a segment always is one. A fixed pose is one, too,
 // whatever the rule: it holds the gauge and costs nothing to eliminate.
@@ -32,18 +32,18 @@ struct KeyframeRule {
 };
 
 // The odometry edges of every step: step k leads from pose k - 1 to pose k.
-Lists<> odometry_steps(const Graph& graph, const PoseIndex& poses);
+graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses);
 
 // Throws an input Error where distance or angle cannot be measured, for a step whose edges are of
 // no composable type.
-std::vector<bool> choose_keyframes(const Graph& graph, const PoseIndex& poses,
-                                   const Lists<>& odometry, const KeyframeRule& rule);
+std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& poses,
+                                   const graph::Lists<>& odometry, const KeyframeRule& rule);
 
 // The graph between its keyframes. Holds references to the graph, its poses and its odometry.
 struct Keyframing {
   const Graph& graph;
-  const PoseIndex& poses;
-  const Lists<>& odometry;
+  const graph::PoseIndex& poses;
+  const graph::Lists<>& odometry;
   std::vector<Index> nearest;   // nearest keyframe of every pose, by pose index
   std::vector<bool> rewritten;  // m: edges with a new line
   std::vector<bool> late;       // m: edges whose new line would stand before the VERTEX of its ends
@@ -55,14 +55,15 @@ struct Keyframing {
 
 // Decides the fate of every edge and checks that what has to be composed can be: throws an input
 // Error that names the first edge of which this does not hold. O(edges).
-Keyframing keyframing(const Graph& graph, const PoseIndex& poses, const Lists<>& odometry,
-                      const std::vector<bool>& keyframe, bool move_loops);
-Keyframing keyframing(const Graph&&, const PoseIndex&, const Lists<>&, const std::vector<bool>&,
-                      bool) = delete;
-Keyframing keyframing(const Graph&, const PoseIndex&&, const Lists<>&, const std::vector<bool>&,
-                      bool) = delete;
-Keyframing keyframing(const Graph&, const PoseIndex&, const Lists<>&&, const std::vector<bool>&,
-                      bool) = delete;
+Keyframing keyframing(const Graph& graph, const graph::PoseIndex& poses,
+                      const graph::Lists<>& odometry, const std::vector<bool>& keyframe,
+                      bool move_loops);
+Keyframing keyframing(const Graph&&, const graph::PoseIndex&, const graph::Lists<>&,
+                      const std::vector<bool>&, bool) = delete;
+Keyframing keyframing(const Graph&, const graph::PoseIndex&&, const graph::Lists<>&,
+                      const std::vector<bool>&, bool) = delete;
+Keyframing keyframing(const Graph&, const graph::PoseIndex&, const graph::Lists<>&&,
+                      const std::vector<bool>&, bool) = delete;
 
 // The motion from pose `from` to another pose `to` of one segment, by pose index, composed from
 // odometry.
@@ -73,4 +74,4 @@ Motion travelled(const Keyframing& keyframing, Index from, Index to);
 constexpr Index milestone_spacing = 64;
 std::string rewritten_line(const Keyframing& keyframing, Index e);
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -8,7 +8,7 @@
 #include "lib/text/error.h"
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::prune {
 namespace {
 
 using Eigen::Matrix3d;
@@ -21,7 +21,7 @@ struct Residual2 {
 Residual2 residual(const SE2& z, const SE2& x) {
   const SE2 e = between(z, x);
   Matrix3d jacobian = Matrix3d::Identity();
-  jacobian.topLeftCorner<2, 2>() = rotation(e.theta);
+  jacobian.topLeftCorner<2, 2>() = geometry::rotation(e.theta);
   return {{e.x, e.y, e.theta}, jacobian};
 }
 
@@ -35,16 +35,17 @@ Residual3 residual(const SE3& z, const SE3& x) {
   Residual3 result{Vector6d::Zero(), Matrix6d::Zero()};
   result.error = compact(e);
   result.jacobian.topLeftCorner<3, 3>() = e.q.toRotationMatrix();
-  result.jacobian.bottomRightCorner<3, 3>() = e.q.w() * Matrix3d::Identity() + skew(e.q.vec());
+  result.jacobian.bottomRightCorner<3, 3>() =
+      e.q.w() * Matrix3d::Identity() + geometry::skew(e.q.vec());
   return result;
 }
 
 // The step of Gauss-Newton in (translation, quaternion's vector part) as a motion.
 SE2 small_motion(const Eigen::Vector3d& d) {
-  return {d[0], d[1], wrap(d[2])};
+  return {d[0], d[1], geometry::wrap(d[2])};
 }
 SE3 small_motion(const Vector6d& d) {
-  return normalized(from_compact(d));
+  return normalized(geometry::from_compact(d));
 }
 
 constexpr int fusion_steps = 10;
@@ -63,8 +64,8 @@ Uncertain fuse_local(const std::vector<Motion>& motions) {
       gradient += jacobian.transpose() * z.information * error;
       result.information += jacobian.transpose() * z.information * jacobian;
     }
-    const decltype(gradient) change = -least_norm_solution(result.information, gradient);
-    result.mean = compose(result.mean, small_motion(change));
+    const decltype(gradient) change = -geometry::least_norm_solution(result.information, gradient);
+    result.mean = geometry::compose(result.mean, small_motion(change));
     if (change.norm() < fusion_tolerance) break;
   }
   return result;
@@ -81,89 +82,98 @@ ExpmapMotion fuse_world(const std::vector<Motion>& motions, const SE3& first_pos
     for (const Motion& m : motions) {
       const auto& z = std::get<ExpmapMotion>(m);
       const Vector6d error = to_world * log(compose(result.mean, inverse(z.mean)));
-      const Matrix6d jacobian = inverse_left_jacobian(error), weight = swapped(z.information);
+      const Matrix6d jacobian = geometry::inverse_left_jacobian(error),
+                     weight = geometry::swapped(z.information);
       gradient += jacobian.transpose() * weight * error;
       information += jacobian.transpose() * weight * jacobian;
     }
-    const Vector6d change = -least_norm_solution(information, gradient);
-    result.mean = compose(exp(Vector6d(from_world * change)), result.mean);
-    result.information = swapped(information);
+    const Vector6d change = -geometry::least_norm_solution(information, gradient);
+    result.mean = compose(geometry::exp(Vector6d(from_world * change)), result.mean);
+    result.information = geometry::swapped(information);
     if (change.norm() < fusion_tolerance) break;
   }
   return result;
 }
 
 template <class Measured>
-std::string edge_text(EdgeTag type, const Measured& z, Id first, Id second) {
-  std::string text(name(type));
-  append_number(text, first);
-  append_number(text, second);
-  append_numbers(text, numbers_of(z.mean));
-  append_numbers(text, upper_triangle(z.information));
+std::string edge_text(graph::EdgeTag type, const Measured& z, Id first, Id second) {
+  std::string text(graph::name(type));
+  text::append_number(text, first);
+  text::append_number(text, second);
+  text::append_numbers(text, geometry::numbers_of(z.mean));
+  text::append_numbers(text, geometry::upper_triangle(z.information));
   return text;
 }
 
 }  // namespace
 
-bool is_motion(EdgeTag type) {
-  return type == EdgeTag::se2 || type == EdgeTag::se3 || type == EdgeTag::expmap;
+bool is_motion(graph::EdgeTag type) {
+  return type == graph::EdgeTag::se2 || type == graph::EdgeTag::se3 ||
+         type == graph::EdgeTag::expmap;
 }
 
 std::optional<Motion> motion(const Graph& graph, Index e) {
-  const EdgeTag type = graph.edge_tag(e);
+  const graph::EdgeTag type = graph.edge_tag(e);
   if (!is_motion(type)) return std::nullopt;
   thread_local std::vector<double> n;
-  edge_numbers(graph, e, n);
-  if (type == EdgeTag::se2)
-    return UncertainSE2{se2(n.data()), symmetric<Matrix3d>(std::span(n).subspan(3))};
-  const SE3 mean = normalized(se3(n.data()));
-  const Matrix6d information = symmetric<Matrix6d>(std::span(n).subspan(7));
-  if (type == EdgeTag::se3) return UncertainSE3{mean, information};
+  graph::edge_numbers(graph, e, n);
+  if (type == graph::EdgeTag::se2)
+    return geometry::UncertainSE2{geometry::se2(n.data()),
+                                  geometry::symmetric<Matrix3d>(std::span(n).subspan(3))};
+  const SE3 mean = normalized(geometry::se3(n.data()));
+  const Matrix6d information = geometry::symmetric<Matrix6d>(std::span(n).subspan(7));
+  if (type == graph::EdgeTag::se3) return geometry::UncertainSE3{mean, information};
   return ExpmapMotion{mean, information};
 }
 
 Motion compose(const Motion& first, const Motion& second) {
-  if (const auto* a = std::get_if<UncertainSE2>(&first))
-    return compose(*a, std::get<UncertainSE2>(second));
-  if (const auto* a = std::get_if<UncertainSE3>(&first))
-    return compose(*a, std::get<UncertainSE3>(second));
+  if (const auto* a = std::get_if<geometry::UncertainSE2>(&first))
+    return compose(*a, std::get<geometry::UncertainSE2>(second));
+  if (const auto* a = std::get_if<geometry::UncertainSE3>(&first))
+    return compose(*a, std::get<geometry::UncertainSE3>(second));
   const auto& a = std::get<ExpmapMotion>(first);
   const auto& b = std::get<ExpmapMotion>(second);
-  return ExpmapMotion{compose(a.mean, b.mean), parallel_sum(a.information, b.information)};
+  return ExpmapMotion{compose(a.mean, b.mean),
+                      geometry::parallel_sum(a.information, b.information)};
 }
 
 Motion inverse(const Motion& motion) {
-  if (const auto* a = std::get_if<UncertainSE2>(&motion)) return inverse(*a);
-  if (const auto* a = std::get_if<UncertainSE3>(&motion)) return inverse(*a);
+  if (const auto* a = std::get_if<geometry::UncertainSE2>(&motion)) return inverse(*a);
+  if (const auto* a = std::get_if<geometry::UncertainSE3>(&motion)) return inverse(*a);
   const auto& a = std::get<ExpmapMotion>(motion);
   return ExpmapMotion{inverse(a.mean), a.information};
 }
 
 Motion fuse(const std::vector<Motion>& motions, const SE3& first_pose) {
   if (motions.size() == 1) return motions[0];
-  if (std::holds_alternative<UncertainSE2>(motions[0])) return fuse_local<UncertainSE2>(motions);
-  if (std::holds_alternative<UncertainSE3>(motions[0])) return fuse_local<UncertainSE3>(motions);
+  if (std::holds_alternative<geometry::UncertainSE2>(motions[0]))
+    return fuse_local<geometry::UncertainSE2>(motions);
+  if (std::holds_alternative<geometry::UncertainSE3>(motions[0]))
+    return fuse_local<geometry::UncertainSE3>(motions);
   return fuse_world(motions, first_pose);
 }
 
 double distance(const Motion& motion) {
-  if (const auto* a = std::get_if<UncertainSE2>(&motion)) return std::hypot(a->mean.x, a->mean.y);
-  if (const auto* a = std::get_if<UncertainSE3>(&motion)) return a->mean.t.norm();
+  if (const auto* a = std::get_if<geometry::UncertainSE2>(&motion))
+    return std::hypot(a->mean.x, a->mean.y);
+  if (const auto* a = std::get_if<geometry::UncertainSE3>(&motion)) return a->mean.t.norm();
   return std::get<ExpmapMotion>(motion).mean.t.norm();
 }
 
 double angle(const Motion& motion) {
-  if (const auto* a = std::get_if<UncertainSE2>(&motion)) return std::abs(wrap(a->mean.theta));
-  if (const auto* a = std::get_if<UncertainSE3>(&motion)) return log_so3(a->mean.q).norm();
-  return log_so3(std::get<ExpmapMotion>(motion).mean.q).norm();
+  if (const auto* a = std::get_if<geometry::UncertainSE2>(&motion))
+    return std::abs(geometry::wrap(a->mean.theta));
+  if (const auto* a = std::get_if<geometry::UncertainSE3>(&motion))
+    return geometry::log_so3(a->mean.q).norm();
+  return geometry::log_so3(std::get<ExpmapMotion>(motion).mean.q).norm();
 }
 
 std::string edge_text(const Motion& motion, Id first, Id second) {
-  if (const auto* a = std::get_if<UncertainSE2>(&motion))
-    return edge_text(EdgeTag::se2, *a, first, second);
-  if (const auto* a = std::get_if<UncertainSE3>(&motion))
-    return edge_text(EdgeTag::se3, *a, first, second);
-  return edge_text(EdgeTag::expmap, std::get<ExpmapMotion>(motion), first, second);
+  if (const auto* a = std::get_if<geometry::UncertainSE2>(&motion))
+    return edge_text(graph::EdgeTag::se2, *a, first, second);
+  if (const auto* a = std::get_if<geometry::UncertainSE3>(&motion))
+    return edge_text(graph::EdgeTag::se3, *a, first, second);
+  return edge_text(graph::EdgeTag::expmap, std::get<ExpmapMotion>(motion), first, second);
 }
 
-}  // namespace sg
+}  // namespace sg::prune

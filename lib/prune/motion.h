@@ -20,17 +20,17 @@
 #include "lib/geometry/se3.h"
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::prune {
 
 struct ExpmapMotion {
   SE3 mean;              // second pose in the frame of the first
   Matrix6d information;  // of the world-frame error (rotation, translation), as the file has it
 };
 
-using Motion = std::variant<UncertainSE2, UncertainSE3, ExpmapMotion>;
+using Motion = std::variant<geometry::UncertainSE2, geometry::UncertainSE3, ExpmapMotion>;
 
 // Whether `motion` can read edges of this type.
-bool is_motion(EdgeTag type);
+bool is_motion(graph::EdgeTag type);
 // The measurement of edge e, if it is of such a type.
 std::optional<Motion> motion(const Graph& graph, Index e);
 
@@ -50,4 +50,4 @@ double angle(const Motion& motion);
 // "TAG first second measurement information", without a line end; numbers round-trip.
 std::string edge_text(const Motion& motion, Id first, Id second);
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -4,7 +4,7 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_int_distribution.hpp>
 
-namespace sg {
+namespace sg::prune {
 
 std::vector<bool> sample(std::size_t n, std::size_t count, std::uint64_t seed) {
   boost::random::mt19937_64 bits(seed);
@@ -19,4 +19,4 @@ std::vector<bool> sample(std::size_t n, std::size_t count, std::uint64_t seed) {
   return chosen;
 }
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-namespace sg {
+namespace sg::prune {
 
 // Marks `count` of n things; every subset of that size is equally likely. All of them if count >=
 // n. Selection sampling (Knuth, The Art of Computer Programming, vol. 2, algorithm 3.4.2 S). O(n).
 std::vector<bool> sample(std::size_t n, std::size_t count, std::uint64_t seed);
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -9,7 +9,7 @@
 #include "lib/text/error.h"
 #include "lib/trees/spanning_trees.h"
 
-namespace sg {
+namespace sg::prune {
 namespace {
 
 // Gains that differ by rounding errors alone become equal.
@@ -35,52 +35,52 @@ struct Worth {
 struct Layer {
   double multiplicity;
   std::vector<double> weight;  // by edge
-  SpanningTrees trees;
+  trees::SpanningTrees trees;
 };
 
 struct Greedy {
-  std::vector<TreeEdge> link;  // by edge; u == v where it links nothing
+  std::vector<trees::TreeEdge> link;  // by edge; u == v where it links nothing
   std::vector<Layer> layers;
   std::priority_queue<Worth> waiting;
   std::int64_t version = 0;
   std::vector<Accepted> accepted;
 };
 
-TreeEdge candidate_link(const Graph& graph, const TreeNodes& nodes, Index e) {
+trees::TreeEdge candidate_link(const Graph& graph, const trees::TreeNodes& nodes, Index e) {
   const auto ends = graph.edge(e);
   if (ends.size() == 2) return {nodes.node[ends[0]], nodes.node[ends[1]]};
-  throw error_at(graph, graph.edge_line[e],
-                 graph.type_of_edge(e).tag + " joins " + std::to_string(ends.size()) +
-                     " vertices: only edges of two can be candidates for spanning trees");
+  throw graph::error_at(graph, graph.edge_line[e],
+                        graph.type_of_edge(e).tag + " joins " + std::to_string(ends.size()) +
+                            " vertices: only edges of two can be candidates for spanning trees");
 }
 
 void require_weights(const Graph& graph, const std::vector<Index>& candidates,
-                     const std::vector<TreeLayer>& layers) {
-  for (const TreeLayer& layer : layers) {
+                     const std::vector<trees::TreeLayer>& layers) {
+  for (const trees::TreeLayer& layer : layers) {
     if (std::any_of(candidates.begin(), candidates.end(),
                     [&](Index e) { return layer.weight[e] > 0; }))
       return;
   }
   if (!candidates.empty())
-    throw input_error(graph.file, 0, "no candidate has a weight of this kind: all are zero");
+    throw text::input_error(graph.file, 0, "no candidate has a weight of this kind: all are zero");
 }
 
 // The graph of the edges marked `present`, on a pattern of all.
-Greedy start(const Graph& graph, const Lists<TreeEdge>& all, const TreeNodes& nodes,
-             const std::vector<Index>& candidates, TreeWeights kind,
-             const std::vector<bool>& present) {
+Greedy start(const Graph& graph, const graph::Lists<trees::TreeEdge>& all,
+             const trees::TreeNodes& nodes, const std::vector<Index>& candidates,
+             trees::TreeWeights kind, const std::vector<bool>& present) {
   Greedy greedy;
   greedy.link.assign(graph.edges(), {0, 0});
   for (Index e : candidates) greedy.link[e] = candidate_link(graph, nodes, e);
-  std::vector<TreeLayer> layers = tree_layers(graph, kind);
+  std::vector<trees::TreeLayer> layers = trees::tree_layers(graph, kind);
   require_weights(graph, candidates, layers);
-  for (TreeLayer& layer : layers) {
+  for (trees::TreeLayer& layer : layers) {
     std::vector<double> weight(all.items.size(), 0);
     for (Index e = 0; e < graph.edges(); ++e) {
       if (!present[e]) continue;
       std::fill(weight.begin() + all.begin[e], weight.begin() + all.begin[e + 1], layer.weight[e]);
     }
-    SpanningTrees trees = spanning_trees(nodes.count, all.items, weight);
+    trees::SpanningTrees trees = trees::spanning_trees(nodes.count, all.items, weight);
     greedy.layers.push_back({layer.multiplicity, std::move(layer.weight), std::move(trees)});
   }
   return greedy;
@@ -90,8 +90,8 @@ Worth worth(Greedy& greedy, Index e) {
   Worth result{0, 0, e, greedy.version};
   for (Layer& layer : greedy.layers) {
     if (layer.weight[e] <= 0) continue;
-    result.joins += !joined(layer.trees, greedy.link[e]);
-    result.gain += layer.multiplicity * gain(layer.trees, greedy.link[e], layer.weight[e]);
+    result.joins += !trees::joined(layer.trees, greedy.link[e]);
+    result.gain += layer.multiplicity * trees::gain(layer.trees, greedy.link[e], layer.weight[e]);
   }
   result.gain = rounded(result.gain);
   return result;
@@ -107,7 +107,8 @@ void accept(Greedy& greedy, const Worth& chosen) {
   for (Layer& layer : greedy.layers) {
     const double weight = layer.weight[chosen.edge];
     if (weight > 0)
-      step.gain += layer.multiplicity * add_link(layer.trees, greedy.link[chosen.edge], weight);
+      step.gain +=
+          layer.multiplicity * trees::add_link(layer.trees, greedy.link[chosen.edge], weight);
     step.criterion += layer.multiplicity * layer.trees.log_trees;
   }
   ++greedy.version;
@@ -131,21 +132,21 @@ void spend(Greedy& greedy, std::size_t total) {
 }
 
 // Edges by the batch of the replay that they come with; those that never enter come last.
-Lists<> by_batch(const Graph& graph, const PoseIndex& poses, Index batch) {
-  const Replay steps = replay(graph, poses);
+graph::Lists<> by_batch(const Graph& graph, const graph::PoseIndex& poses, Index batch) {
+  const graph::Replay steps = graph::replay(graph, poses);
   const Index batches = std::max<Index>(1, (steps.steps + batch - 1) / batch);
   std::vector<Index> when(graph.edges());
   for (Index e = 0; e < graph.edges(); ++e)
     when[e] = steps.edge_step[e] < 0 ? batches - 1 : steps.edge_step[e] / batch;
-  return grouped(when, batches);
+  return graph::grouped(when, batches);
 }
 
 }  // namespace
 
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
-                              std::size_t count, TreeWeights weights) {
-  const TreeNodes nodes = tree_nodes(graph);
-  const Lists<TreeEdge> all = tree_links(graph, nodes);
+                              std::size_t count, trees::TreeWeights weights) {
+  const trees::TreeNodes nodes = trees::tree_nodes(graph);
+  const graph::Lists<trees::TreeEdge> all = trees::tree_links(graph, nodes);
   std::vector<bool> present(graph.edges(), true);
   for (Index e : candidates) present[e] = false;
   Greedy greedy = start(graph, all, nodes, candidates, weights, present);
@@ -154,16 +155,16 @@ std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& cand
   return std::move(greedy.accepted);
 }
 
-std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
+std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
-                                     TreeWeights weights, Index batch) {
-  const TreeNodes nodes = tree_nodes(graph);
-  const Lists<TreeEdge> all = tree_links(graph, nodes);
+                                     trees::TreeWeights weights, Index batch) {
+  const trees::TreeNodes nodes = trees::tree_nodes(graph);
+  const graph::Lists<trees::TreeEdge> all = trees::tree_links(graph, nodes);
   Greedy greedy =
       start(graph, all, nodes, candidates, weights, std::vector<bool>(graph.edges(), false));
   std::vector<bool> candidate(graph.edges(), false);
   for (Index e : candidates) candidate[e] = true;
-  const Lists<> edges = by_batch(graph, poses, batch);
+  const graph::Lists<> edges = by_batch(graph, poses, batch);
   count = std::min(count, candidates.size());
   std::size_t seen = 0;
   for (Index k = 0; k < edges.size(); ++k) {
@@ -175,7 +176,8 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
       }
       for (Layer& layer : greedy.layers) {
         if (layer.weight[e] <= 0) continue;
-        for (const TreeEdge& link : all[e]) add_link(layer.trees, link, layer.weight[e]);
+        for (const trees::TreeEdge& link : all[e])
+          trees::add_link(layer.trees, link, layer.weight[e]);
       }
       ++greedy.version;
     }
@@ -184,12 +186,12 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
   return std::move(greedy.accepted);
 }
 
-Index pose_parts(const Graph& graph, const PoseIndex& poses,
+Index pose_parts(const Graph& graph, const graph::PoseIndex& poses,
                  const std::vector<bool>& edge_removed) {
-  const Components parts = components(graph, edge_removed);
+  const graph::Components parts = graph::components(graph, edge_removed);
   std::vector<bool> found(parts.count, false);
   for (Index v : poses.pose) found[parts.of[v]] = true;
   return static_cast<Index>(std::count(found.begin(), found.end(), true));
 }
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -22,7 +22,7 @@
 #include "lib/graph/replay.h"
 #include "lib/trees/tree_weights.h"
 
-namespace sg {
+namespace sg::prune {
 
 struct Accepted {
   Index edge;
@@ -34,16 +34,17 @@ struct Accepted {
 // The candidates to keep, in the order in which they are accepted: `count` of them, or all. Throws
 // an input Error for a candidate of other than two vertices.
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
-                              std::size_t count, TreeWeights weights);
+                              std::size_t count, trees::TreeWeights weights);
 
 // The choice that a robot could have made: after every `batch` steps of the replay it spends that
 // batch's share of `count` on the candidates seen so far, in the graph seen so far. After c of the
 // n candidates, round(count c / n) are spent.
-std::vector<Accepted> tgreedy_online(const Graph& graph, const PoseIndex& poses,
+std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
-                                     TreeWeights weights, Index batch);
+                                     trees::TreeWeights weights, Index batch);
 
 // Parts of the graph's poses that the kept candidates and the other edges do not join.
-Index pose_parts(const Graph& graph, const PoseIndex& poses, const std::vector<bool>& edge_removed);
+Index pose_parts(const Graph& graph, const graph::PoseIndex& poses,
+                 const std::vector<bool>& edge_removed);
 
-}  // namespace sg
+}  // namespace sg::prune

@@ -7,15 +7,15 @@
 #include "lib/geometry/numbers.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::score {
 namespace {
 
 SE3 pose_of(const Graph& graph, Index v, const std::vector<double>& n) {
-  const Space space = graph.type_of_vertex(v).space;
-  if (space == Space::se2) return {exp_so3({0, 0, n[2]}), {n[0], n[1], 0}};
-  if (has_quaternion(space)) return normalized(se3(n.data()));
-  throw error_at(graph, graph.vertex_line[v],
-                 graph.type_of_vertex(v).tag + " is no pose that a trajectory can have");
+  const graph::Space space = graph.type_of_vertex(v).space;
+  if (space == graph::Space::se2) return {geometry::exp_so3({0, 0, n[2]}), {n[0], n[1], 0}};
+  if (graph::has_quaternion(space)) return normalized(geometry::se3(n.data()));
+  throw graph::error_at(graph, graph.vertex_line[v],
+                        graph.type_of_vertex(v).tag + " is no pose that a trajectory can have");
 }
 
 struct Matched {
@@ -79,18 +79,18 @@ double root_mean_square(const std::vector<double>& values) {
 Trajectory trajectory(const Graph& graph) {
   Trajectory result;
   std::vector<double> numbers;
-  std::optional<Problem> problem;
-  Values values;
+  std::optional<factor::Problem> problem;
+  factor::Values values;
   if (graph.edges_only) {
-    problem = make_problem(graph);
-    values = initial_values(*problem);
+    problem = factor::make_problem(graph);
+    values = factor::initial_values(*problem);
   }
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (graph.role(v) != Role::pose) continue;
+    if (graph.role(v) != graph::Role::pose) continue;
     if (problem) {
-      numbers = estimate_numbers(*problem, values, v);
+      numbers = factor::estimate_numbers(*problem, values, v);
     } else {
-      vertex_numbers(graph, v, numbers);
+      graph::vertex_numbers(graph, v, numbers);
     }
     result.id.push_back(graph.id[v]);
     result.pose.push_back(pose_of(graph, v, numbers));
@@ -124,4 +124,4 @@ TrajectoryError trajectory_error(const Trajectory& estimate, const Trajectory& r
   return result;
 }
 
-}  // namespace sg
+}  // namespace sg::score

@@ -10,7 +10,7 @@
 #include "lib/geometry/se3.h"
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::score {
 
 struct Trajectory {
   std::vector<Id> id;     // ascending
@@ -40,4 +40,4 @@ struct TrajectoryError {
 TrajectoryError trajectory_error(const Trajectory& estimate, const Trajectory& reference,
                                  Alignment alignment);
 
-}  // namespace sg
+}  // namespace sg::score

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 constexpr std::size_t line = 64;
@@ -27,4 +27,4 @@ Arena::Arena(std::size_t size) : size_(size) {
   std::fill_n(numbers_.get(), size, 0.0);
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace sg {
+namespace sg::solve {
 
 class Arena {
  public:
@@ -51,4 +51,4 @@ class ChunkedArena {
   std::vector<double*> base_;  // of every chunk
 };
 
-}  // namespace sg
+}  // namespace sg::solve

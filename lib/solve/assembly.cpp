@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace sg {
+namespace sg::solve {
 
 int place_variables(std::span<const Index> frontals, std::span<const Index> separators,
                     std::span<const int> dim, std::span<int> row_at) {
@@ -41,4 +41,4 @@ bool append_runs(std::span<const Index> variables, std::span<const int> dim,
   return false;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -8,7 +8,7 @@
 #include "lib/graph/pattern.h"
 #include "lib/solve/front.h"
 
-namespace sg {
+namespace sg::solve {
 
 // Sets row_at, by variable, to the front row that its scalars start at: frontals, then separators.
 // Returns the row behind them, which is the right-hand side's.
@@ -26,4 +26,4 @@ inline int rows_covered(std::span<const Run> runs) {
   return runs.back().from + runs.back().length;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -13,7 +13,7 @@
 #include "lib/solve/undetermined.h"
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 constexpr double first_lambda = 1e-4;
@@ -41,28 +41,28 @@ struct Stopwatch {
 
 // What the iterations of both methods share.
 struct Run {
-  const Problem& problem;
-  LinearSystem& system;
+  const factor::Problem& problem;
+  factor::LinearSystem& system;
   LinearSolver solver;
   const BatchOptions& options;
-  Values& values;
+  factor::Values& values;
   const std::function<void(const Iteration&)>& report;
   BatchResult result;
   std::vector<double> step{}, diagonal{}, gradient{};
 };
 
-std::vector<Id> variable_ids(const Problem& problem) {
+std::vector<Id> variable_ids(const factor::Problem& problem) {
   std::vector<Id> id;
   for (Index v : problem.variables.variable_vertex) id.push_back(problem.graph->id[v]);
   return id;
 }
 
-Error diverged(const Run& run) {
-  std::string cause = "the iterations diverge: chi-square " + format_number(run.result.chi2) +
+text::Error diverged(const Run& run) {
+  std::string cause = "the iterations diverge: chi-square " + text::format_number(run.result.chi2) +
                       " after " + std::to_string(run.result.iterations) + ", from " +
-                      format_number(run.result.initial_chi2) + "; start elsewhere (--init)";
+                      text::format_number(run.result.initial_chi2) + "; start elsewhere (--init)";
   if (run.options.method == BatchMethod::gauss_newton) cause += ", or leave out --gn";
-  return computation_error(cause);
+  return text::computation_error(cause);
 }
 
 void check_finite(const Run& run) {
@@ -70,14 +70,14 @@ void check_finite(const Run& run) {
 }
 
 void relinearize(Run& run) {
-  linearize(run.problem, run.values, run.options.kernel, run.system);
+  factor::linearize(run.problem, run.values, run.options.kernel, run.system);
   diagonal_and_gradient(run.system, run.diagonal, run.gradient);
 }
 
 // The system of the start is eliminated without damping, which hides what the measurements leave undetermined.
 void eliminate_start(Run& run) {
   if (run.solver.eliminate(run.system, {})) return;
-  const auto scaling = free_scaling(run.problem, run.values, run.system);
+  const auto scaling = factor::free_scaling(run.problem, run.values, run.system);
   const NullSpace open = null_space(run.system, scaling);
   run.result.by_qr = open.dimension == 0;
   if (run.result.by_qr) run.solver = qr_solver(run.system, {}, 1);
@@ -103,18 +103,18 @@ bool is_flat(const Run& run) {
 // How far rounding alone moves every scalar of a step: half a unit in the last place of the largest coordinate, or of a
 // radian, and some more for what is calculated with them.
 std::vector<double> rounding_of_estimate(const Run& run) {
-  const Problem& problem = run.problem;
+  const factor::Problem& problem = run.problem;
   double extent = 0;
   for (Index v = 0; v < problem.graph->vertices(); ++v) {
     const double* const x = run.values.data() + problem.value_at[v];
-    for (int k = 0; k < space_dim(problem.space[v]) && k < 3; ++k) {
-      if (!is_turn(problem.space[v], k)) extent = std::max(extent, std::abs(x[k]));
+    for (int k = 0; k < graph::space_dim(problem.space[v]) && k < 3; ++k) {
+      if (!factor::is_turn(problem.space[v], k)) extent = std::max(extent, std::abs(x[k]));
     }
   }
   std::vector<double> size;
   for (Index v : problem.variables.variable_vertex) {
-    for (int k = 0; k < space_dim(problem.space[v]); ++k)
-      size.push_back(2 * rounding * (is_turn(problem.space[v], k) ? 1 : extent));
+    for (int k = 0; k < graph::space_dim(problem.space[v]); ++k)
+      size.push_back(2 * rounding * (factor::is_turn(problem.space[v], k) ? 1 : extent));
   }
   return size;
 }
@@ -124,7 +124,7 @@ bool is_zero(const Run& run, const std::vector<double>& moves) {
   double sum = 0;
   for (Index r = 0; r < run.problem.graph->edges(); ++r) {
     const double* number = run.system.block(r);
-    std::array<double, max_dim> most{};
+    std::array<double, factor::max_dim> most{};
     for (Index j : run.system.pattern->rows[r]) {
       for (Index k = run.problem.step_at[j]; k < run.problem.step_at[j + 1]; ++k) {
         for (int i = 0; i < run.system.height[r]; ++i) most[i] += std::abs(*number++) * moves[k];
@@ -167,7 +167,7 @@ bool gauss_newton(Run& run) {
     Stopwatch watch;
     try {
       relinearize(run);
-    } catch (const Error&) {  // far out, edges have no derivative, or weigh too much
+    } catch (const text::Error&) {  // far out, edges have no derivative, or weigh too much
       if (result.iterations == 0 || result.chi2 <= result.initial_chi2) throw;
       throw diverged(run);
     }
@@ -175,9 +175,9 @@ bool gauss_newton(Run& run) {
     gauss_newton_step(run);
     if (is_flat(run)) return true;
     const double eliminate_s = watch.lap();
-    retract(run.problem, run.step, run.values);
+    factor::retract(run.problem, run.step, run.values);
     const double before =
-        std::exchange(result.chi2, chi2(run.problem, run.values, run.options.kernel));
+        std::exchange(result.chi2, factor::chi2(run.problem, run.values, run.options.kernel));
     tell(run,
          {++result.iterations, result.chi2, 0, norm(run.step), true, linearize_s, eliminate_s});
     check_finite(run);
@@ -238,9 +238,9 @@ bool levenberg_marquardt(Run& run) {
     }
     run.solver.back_substitute(run.step);
     const double eliminate_s = watch.lap();
-    Values trial = run.values;
-    retract(run.problem, run.step, trial);
-    const double after = chi2(run.problem, trial, run.options.kernel), before = result.chi2;
+    factor::Values trial = run.values;
+    factor::retract(run.problem, run.step, trial);
+    const double after = factor::chi2(run.problem, trial, run.options.kernel), before = result.chi2;
     const bool kept = after <= before;
     if (kept) {
       run.values = std::move(trial);
@@ -257,23 +257,24 @@ bool levenberg_marquardt(Run& run) {
 
 }  // namespace
 
-BatchResult optimize(const Problem& problem, LinearSystem& system, const LinearSolver& solver,
-                     const BatchOptions& options, Values& values,
-                     const std::function<void(const Iteration&)>& report) {
-  const double start = chi2(problem, values, options.kernel);
+BatchResult optimize(const factor::Problem& problem, factor::LinearSystem& system,
+                     const LinearSolver& solver, const BatchOptions& options,
+                     factor::Values& values, const std::function<void(const Iteration&)>& report) {
+  const double start = factor::chi2(problem, values, options.kernel);
   Run run{problem, system, solver, options, values, report, {start, start, 0, false}};
   if (!std::isfinite(start)) {
     relinearize(run);  // which names the edge
-    throw computation_error("the chi-square of the start is not a finite number");
+    throw text::computation_error("the chi-square of the start is not a finite number");
   }
   run.result.converged =
       options.method == BatchMethod::gauss_newton ? gauss_newton(run) : levenberg_marquardt(run);
   return run.result;
 }
 
-Error singular_error(const Problem& problem, const Values& values, const LinearSystem& system) {
-  return singular_error(null_space(system, free_scaling(problem, values, system)),
+text::Error singular_error(const factor::Problem& problem, const factor::Values& values,
+                           const factor::LinearSystem& system) {
+  return singular_error(null_space(system, factor::free_scaling(problem, values, system)),
                         variable_ids(problem));
 }
 
-}  // namespace sg
+}  // namespace sg::solve

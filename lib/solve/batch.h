@@ -20,7 +20,7 @@
 #include "lib/solve/linear_solver.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::solve {
 
 enum class BatchMethod { gauss_newton, levenberg_marquardt };
 
@@ -28,7 +28,7 @@ struct BatchOptions {
   BatchMethod method = BatchMethod::levenberg_marquardt;
   int iterations = 100;     // at most
   double tolerance = 1e-9;  // of the share by which a last step changes chi2
-  Kernel kernel;
+  factor::Kernel kernel;
 };
 
 struct Iteration {
@@ -52,11 +52,13 @@ struct BatchResult {
 // Improves `values` in place; calls `report` (if given) after every iteration. Throws a computation Error that tells a
 // system that leaves vertices undetermined, one that is ill-conditioned, and iterations that diverge; and those of
 // check_row (linearize.h).
-BatchResult optimize(const Problem& problem, LinearSystem& system, const LinearSolver& solver,
-                     const BatchOptions& options, Values& values,
+BatchResult optimize(const factor::Problem& problem, factor::LinearSystem& system,
+                     const LinearSolver& solver, const BatchOptions& options,
+                     factor::Values& values,
                      const std::function<void(const Iteration&)>& report = {});
 
 // The Error for a system, linearized at `values`, that a solver could not eliminate.
-Error singular_error(const Problem& problem, const Values& values, const LinearSystem& system);
+text::Error singular_error(const factor::Problem& problem, const factor::Values& values,
+                           const factor::LinearSystem& system);
 
-}  // namespace sg
+}  // namespace sg::solve

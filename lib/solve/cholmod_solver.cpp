@@ -6,14 +6,14 @@
 #include "lib/solve/pivots.h"
 #include "lib/sparse/cholesky.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 struct State {
   NormalEquations normal;
   std::vector<double> floors;  // of pivots, by scalar in elimination order
-  Cholmod session;
-  CholmodFactor factor{nullptr, {nullptr}};
+  sparse::Cholmod session;
+  sparse::CholmodFactor factor{nullptr, {nullptr}};
 };
 
 // Whether a pivot of the supernodal factor has vanished.
@@ -34,15 +34,16 @@ bool has_vanished_pivot(const State& state) {
   return false;
 }
 
-bool factorize(State& state, const LinearSystem& system, std::span<const double> damping) {
+bool factorize(State& state, const factor::LinearSystem& system, std::span<const double> damping) {
   form_normal_equations(system, damping, state.normal);
   set_floors(system, state.normal.scalar_at, state.floors);
-  cholmod_sparse H = view(state.normal.column_begin, state.normal.rows, state.normal.numbers);
-  return factorize(H, *state.factor, state.session) && !has_vanished_pivot(state);
+  cholmod_sparse H =
+      sparse::view(state.normal.column_begin, state.normal.rows, state.normal.numbers);
+  return sparse::factorize(H, *state.factor, state.session) && !has_vanished_pivot(state);
 }
 
 void solve(State& state, std::vector<double>& step) {
-  const CholmodDense x = solve(*state.factor, state.normal.gradient, state.session);
+  const sparse::CholmodDense x = sparse::solve(*state.factor, state.normal.gradient, state.session);
   const auto* numbers = static_cast<const double*>(x->x);
   step.resize(state.normal.gradient.size());
   for (std::size_t j = 0; j < state.normal.dim.size(); ++j) {
@@ -53,23 +54,24 @@ void solve(State& state, std::vector<double>& step) {
 
 }  // namespace
 
-LinearSolver cholmod_solver(const LinearSystem& system, const Order& order, int /*threads*/) {
+LinearSolver cholmod_solver(const factor::LinearSystem& system, const graph::Order& order,
+                            int /*threads*/) {
   const auto state = std::make_shared<State>();
   state->normal = normal_structure(system, order);
   state->floors.resize(state->normal.scalars());
   if (order.empty()) {  // which CHOLMOD does not take
-    return {[](const LinearSystem&, std::span<const double>) { return true; },
+    return {[](const factor::LinearSystem&, std::span<const double>) { return true; },
             [](std::vector<double>& step) { step.clear(); }};
   }
   state->session.common.supernodal = CHOLMOD_SUPERNODAL;
   state->session.common.quick_return_if_not_posdef = 1;
   NormalEquations& normal = state->normal;
-  cholmod_sparse H = view(normal.column_begin, normal.rows, normal.numbers);
-  state->factor = analyze(H, CHOLMOD_NATURAL, state->session);
-  return {[state](const LinearSystem& s, std::span<const double> damping) {
+  cholmod_sparse H = sparse::view(normal.column_begin, normal.rows, normal.numbers);
+  state->factor = sparse::analyze(H, CHOLMOD_NATURAL, state->session);
+  return {[state](const factor::LinearSystem& s, std::span<const double> damping) {
             return factorize(*state, s, damping);
           },
           [state](std::vector<double>& step) { solve(*state, step); }};
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -8,7 +8,7 @@
 #include "lib/elim/counts.h"
 #include "lib/elim/etree.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 // Nanoseconds, roughly, that a front of f frontal and n rows takes: a fixed part, a pass over its
@@ -20,7 +20,7 @@ double front_time(double f, double n) {
 
 // Sets the clique that each of the Bayes tree's becomes part of; itself stands where it stays
 // alone.
-void merge_into_parents(const BayesTree& tree, std::vector<Index>& target) {
+void merge_into_parents(const elim::BayesTree& tree, std::vector<Index>& target) {
   const Index cliques = tree.cliques();
   std::vector<double> f(tree.frontal_dim.begin(), tree.frontal_dim.end());
   std::vector<double> n(tree.total_dim.begin(), tree.total_dim.end());
@@ -41,7 +41,7 @@ void merge_into_parents(const BayesTree& tree, std::vector<Index>& target) {
 
 // Numbers the merged cliques in postorder: of every clique of the Bayes tree the number of the one
 // that it is part of. Fills in the parents.
-std::vector<Index> number_cliques(const BayesTree& tree, const std::vector<Index>& target,
+std::vector<Index> number_cliques(const elim::BayesTree& tree, const std::vector<Index>& target,
                                   CliqueTree& result) {
   std::vector<Index> rank(tree.cliques(), -1);  // among those that stay, children before parents
   std::vector<Index> kept;
@@ -55,7 +55,7 @@ std::vector<Index> number_cliques(const BayesTree& tree, const std::vector<Index
     const Index p = tree.parent[kept[k]];
     parent[k] = p < 0 ? -1 : rank[target[p]];
   }
-  const std::vector<Index> post = postorder(parent);
+  const std::vector<Index> post = elim::postorder(parent);
   std::vector<Index> number(post.size());
   for (Index k = 0; k < static_cast<Index>(post.size()); ++k) number[post[k]] = k;
   result.parent.resize(post.size());
@@ -68,7 +68,7 @@ std::vector<Index> number_cliques(const BayesTree& tree, const std::vector<Index
 }
 
 // Dimensions, and what the Bayes tree's own cliques cost.
-void sum_up(const BayesTree& tree, const std::vector<Index>& clique,
+void sum_up(const elim::BayesTree& tree, const std::vector<Index>& clique,
             const std::vector<Index>& target, CliqueTree& result) {
   const auto cliques = result.parent.size();
   result.frontal_dim.assign(cliques, 0);
@@ -84,13 +84,13 @@ void sum_up(const BayesTree& tree, const std::vector<Index>& clique,
 }
 
 // Frontals and separators as variables, in elimination order.
-void list_variables(const BayesTree& tree, const Order& order, const std::vector<Index>& target,
-                    const std::vector<Index>& clique, const Lists<>& separator_positions,
-                    CliqueTree& result) {
+void list_variables(const elim::BayesTree& tree, const graph::Order& order,
+                    const std::vector<Index>& target, const std::vector<Index>& clique,
+                    const graph::Lists<>& separator_positions, CliqueTree& result) {
   const auto n = static_cast<Index>(order.size());
   std::vector<Index> clique_at(n);
   for (Index k = 0; k < n; ++k) clique_at[k] = clique[tree.clique[k]];
-  result.frontals = grouped(clique_at, result.cliques());
+  result.frontals = graph::grouped(clique_at, result.cliques());
   std::vector<Index>& frontals = result.frontals.items;
   std::vector<Index> rank(n);  // of a position in the new order
   for (Index k = 0; k < n; ++k) rank[frontals[k]] = k;
@@ -109,7 +109,7 @@ void list_variables(const BayesTree& tree, const Order& order, const std::vector
 }
 
 // A row is assembled where its first variable is eliminated.
-void place_rows(const Pattern& pattern, CliqueTree& result) {
+void place_rows(const graph::Pattern& pattern, CliqueTree& result) {
   std::vector<Index> rank(pattern.variables());
   std::vector<Index> clique(pattern.variables());
   for (Index c = 0, position = 0; c < result.cliques(); ++c) {
@@ -130,11 +130,11 @@ void place_rows(const Pattern& pattern, CliqueTree& result) {
 
 }  // namespace
 
-CliqueTree clique_tree(const Pattern& pattern, const Order& order, bool relaxed) {
-  const OrderedPattern by_position = ordered(pattern, order);
-  Symbolic symbolic{by_position.dim, elimination_tree(by_position), {}};
-  symbolic.count = column_counts(by_position, symbolic.parent);
-  const BayesTree tree = bayes_tree(symbolic);
+CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order, bool relaxed) {
+  const elim::OrderedPattern by_position = elim::ordered(pattern, order);
+  elim::Symbolic symbolic{by_position.dim, elim::elimination_tree(by_position), {}};
+  symbolic.count = elim::column_counts(by_position, symbolic.parent);
+  const elim::BayesTree tree = elim::bayes_tree(symbolic);
   std::vector<Index> target(tree.cliques());
   std::iota(target.begin(), target.end(), 0);
   if (relaxed) merge_into_parents(tree, target);
@@ -142,10 +142,10 @@ CliqueTree clique_tree(const Pattern& pattern, const Order& order, bool relaxed)
   CliqueTree result;
   const std::vector<Index> clique = number_cliques(tree, target, result);
   sum_up(tree, clique, target, result);
-  list_variables(tree, order, target, clique, clique_separators(by_position, tree), result);
+  list_variables(tree, order, target, clique, elim::clique_separators(by_position, tree), result);
   place_rows(pattern, result);
-  assert(is_permutation(result.frontals.items, pattern.variables()));
+  assert(graph::is_permutation(result.frontals.items, pattern.variables()));
   return result;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

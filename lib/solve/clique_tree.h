@@ -15,12 +15,12 @@
 
 #include "lib/graph/pattern.h"
 
-namespace sg {
+namespace sg::solve {
 
 struct CliqueTree {
   std::vector<Index> parent;       // C, -1 at a root
-  Lists<> frontals;                // C, all in elimination order
-  Lists<> separators;              // C, each in elimination order
+  graph::Lists<> frontals;         // C, all in elimination order
+  graph::Lists<> separators;       // C, each in elimination order
   std::vector<int> frontal_dim;    // C, scalars
   std::vector<int> separator_dim;  // C, scalars
   std::vector<std::int64_t> ec;    // C, its share of EC_BT
@@ -30,6 +30,7 @@ struct CliqueTree {
 };
 
 // relaxed: whether cliques may be merged; without, they are the Bayes tree's.
-CliqueTree clique_tree(const Pattern& pattern, const Order& order, bool relaxed = true);
+CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order,
+                       bool relaxed = true);
 
-}  // namespace sg
+}  // namespace sg::solve

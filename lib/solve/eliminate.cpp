@@ -13,14 +13,14 @@
 #include "lib/solve/assembly.h"
 #include "lib/solve/pivots.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 // Where rows and children go in their clique's front.
-void plan_runs(const Pattern& pattern, Elimination& e) {
+void plan_runs(const graph::Pattern& pattern, Elimination& e) {
   const CliqueTree& tree = e.tree;
-  e.rows = grouped(tree.row_clique, tree.cliques());
-  e.children = grouped(tree.parent, tree.cliques());
+  e.rows = graph::grouped(tree.row_clique, tree.cliques());
+  e.children = graph::grouped(tree.parent, tree.cliques());
   std::vector<int> row_at(pattern.variables());
   for (Index c = 0; c < tree.cliques(); ++c) {
     const int last_row = place_variables(tree.frontals[c], tree.separators[c], pattern.dim, row_at);
@@ -35,7 +35,7 @@ void plan_runs(const Pattern& pattern, Elimination& e) {
   }
 }
 
-void plan_scalars(const Pattern& pattern, Elimination& e) {
+void plan_scalars(const graph::Pattern& pattern, Elimination& e) {
   e.dim = pattern.dim;
   e.step_at.assign(1, 0);
   for (int dim : pattern.dim) e.step_at.push_back(e.step_at.back() + dim);
@@ -112,7 +112,7 @@ Offset plan_updates(Elimination& e, const Elimination::Task& task, const std::ve
   return base + peak[0] + peak[1];
 }
 
-void plan_storage(const LinearSystem& system, Elimination& e) {
+void plan_storage(const factor::LinearSystem& system, Elimination& e) {
   const Index cliques = e.tree.cliques();
   e.l_at.resize(cliques);
   e.u_at.resize(cliques);
@@ -152,8 +152,9 @@ void damp(const Elimination& e, Index c, std::span<const double> damping, const 
 }
 
 // Gathers and eliminates one clique; returns how many of its pivots vanished.
-int eliminate_clique(Elimination& e, const LinearSystem& system, std::span<const double> damping,
-                     Index c, const Kernels& kernel, double* scratch) {
+int eliminate_clique(Elimination& e, const factor::LinearSystem& system,
+                     std::span<const double> damping, Index c, const Kernels& kernel,
+                     double* scratch) {
   const Front front = e.front(c);
   kernel.clear(front);
   for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i) {
@@ -202,8 +203,9 @@ void run_tasks(const Elimination& e, Work&& work) {
 
 }  // namespace
 
-Elimination plan_elimination(const LinearSystem& system, const Order& order, int threads) {
-  assert(is_laid_out(system));
+Elimination plan_elimination(const factor::LinearSystem& system, const graph::Order& order,
+                             int threads) {
+  assert(factor::is_laid_out(system));
   Elimination e;
   e.tree = clique_tree(*system.pattern, order);
   plan_scalars(*system.pattern, e);
@@ -213,9 +215,9 @@ Elimination plan_elimination(const LinearSystem& system, const Order& order, int
   return e;
 }
 
-std::vector<Index> eliminate(Elimination& e, const LinearSystem& system,
+std::vector<Index> eliminate(Elimination& e, const factor::LinearSystem& system,
                              std::span<const double> damping) {
-  assert(is_laid_out(system) && system.pattern->dim == e.dim);
+  assert(factor::is_laid_out(system) && system.pattern->dim == e.dim);
   assert(damping.empty() || damping.size() == e.floors.size());
   set_floors(system, e.floor_at, e.floors);
   const Kernels& kernel = kernels();
@@ -264,4 +266,4 @@ double log_determinant(Elimination& e) {
   return 2 * sum;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

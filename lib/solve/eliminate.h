@@ -23,7 +23,7 @@
 #include "lib/solve/clique_tree.h"
 #include "lib/solve/front.h"
 
-namespace sg {
+namespace sg::solve {
 
 struct Elimination {
   CliqueTree tree;
@@ -31,12 +31,12 @@ struct Elimination {
   std::vector<Index> step_at;   // n + 1: where a variable's part of a step starts
   std::vector<Index> floor_at;  // n: where its pivots' floors are, in elimination order
 
-  std::vector<Offset> l_at;  // C, into conditionals
-  std::vector<Offset> u_at;  // C, into updates
-  Lists<> rows;              // C: what is assembled in every clique
-  Lists<> children;          // C
-  Lists<Run> row_runs;       // by place in rows: from the Gram matrix to the front
-  Lists<Run> child_runs;     // by place in children: from its update to the front
+  std::vector<Offset> l_at;      // C, into conditionals
+  std::vector<Offset> u_at;      // C, into updates
+  graph::Lists<> rows;           // C: what is assembled in every clique
+  graph::Lists<> children;       // C
+  graph::Lists<Run> row_runs;    // by place in rows: from the Gram matrix to the front
+  graph::Lists<Run> child_runs;  // by place in children: from its update to the front
 
   // Consecutive cliques that one thread works through; a task's parent waits for it.
   struct Task {
@@ -62,12 +62,13 @@ struct Elimination {
 
 // For this system and all of its structure. Throws std::invalid_argument if `order` is no
 // permutation.
-Elimination plan_elimination(const LinearSystem& system, const Order& order, int threads = 1);
+Elimination plan_elimination(const factor::LinearSystem& system, const graph::Order& order,
+                             int threads = 1);
 
 // Eliminates all variables. damping: what is added to the diagonal of A' A, by scalar of a step;
 // empty for nothing. Returns the undetermined variables, ascending: those with a scalar whose pivot
 // vanished next to the diagonal entry that it came from. They are held at zero in what follows.
-std::vector<Index> eliminate(Elimination& elimination, const LinearSystem& system,
+std::vector<Index> eliminate(Elimination& elimination, const factor::LinearSystem& system,
                              std::span<const double> damping = {});
 
 // After eliminate: the step, by variable (step_at).
@@ -76,4 +77,4 @@ void back_substitute(Elimination& elimination, std::vector<double>& step);
 // After eliminate, of a regular system: log det(A' A + diag(damping)).
 double log_determinant(Elimination& elimination);
 
-}  // namespace sg
+}  // namespace sg::solve

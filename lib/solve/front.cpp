@@ -6,7 +6,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::solve {
 namespace plain {
 extern const Kernels table;
 }
@@ -48,8 +48,8 @@ const Kernels& chosen_kernels() {
     if (std::string_view(wanted) == there->name) return *there;
     names += (names.empty() ? "" : ", ") + std::string(there->name);
   }
-  throw usage_error("SGTOOLS_KERNELS: no kernels '" + std::string(wanted) +
-                    "' on this machine; there are: " + names);
+  throw text::usage_error("SGTOOLS_KERNELS: no kernels '" + std::string(wanted) +
+                          "' on this machine; there are: " + names);
 }
 
 }  // namespace
@@ -63,4 +63,4 @@ const Kernels& kernels() {
   return chosen;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <span>
 
-namespace sg {
+namespace sg::solve {
 
 constexpr int lane = 8;
 constexpr int round_up(int rows) {
@@ -87,4 +87,4 @@ const Kernels& kernels();
 // All that this machine can run, the plainest first.
 std::span<const Kernels* const> all_kernels();
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -8,18 +8,18 @@
 #include "lib/solve/isam2_solve.h"
 #include "lib/solve/isam2_top.h"
 
-namespace sg {
+namespace sg::solve {
 
-Isam2 make_isam2(const Problem& problem, const Isam2Options& options) {
-  find_ordering(options.ordering);
+Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options) {
+  order::find_ordering(options.ordering);
   Isam2 isam;
   isam.problem = &problem;
   isam.options = options;
-  const Pattern& pattern = problem.variables.pattern;
+  const graph::Pattern& pattern = problem.variables.pattern;
   const Index n = pattern.variables();
   isam.tree.variable_clique.assign(n, -1);
   isam.tree.row_clique.assign(pattern.rows.size(), -1);
-  isam.rows_of = columns(pattern);
+  isam.rows_of = graph::columns(pattern);
   isam.linearized.assign(problem.value_at.back(), 0.0);
   isam.estimate = isam.linearized;
   isam.step.assign(problem.step_at.back(), 0.0);
@@ -31,7 +31,7 @@ Isam2 make_isam2(const Problem& problem, const Isam2Options& options) {
   isam.row_update.assign(pattern.rows.size(), -1);
   isam.gram_at.assign(1, 0);
   for (Index r = 0; r < pattern.rows.size(); ++r) {
-    const Offset width = block_columns(pattern, r);
+    const Offset width = factor::block_columns(pattern, r);
     isam.gram_at.push_back(isam.gram_at.back() + width * width);
   }
   isam.grams.resize(isam.gram_at.back());
@@ -61,7 +61,8 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
 double chi2(const Isam2& isam) {
   double sum = 0;
   for (Index e = 0; e < isam.problem->graph->edges(); ++e) {
-    if (isam.tree.row_clique[e] >= 0) sum += finite_edge_chi2(*isam.problem, isam.estimate, e);
+    if (isam.tree.row_clique[e] >= 0)
+      sum += factor::finite_edge_chi2(*isam.problem, isam.estimate, e);
   }
   return sum;
 }
@@ -79,4 +80,4 @@ void propose(Isam2& isam, Index j) {
   isam.candidates.push_back(j);
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -62,7 +62,7 @@
 #include "lib/order/order.h"
 #include "lib/solve/isam2_tree.h"
 
-namespace sg {
+namespace sg::solve {
 
 struct Isam2Options {
   double relinearize_threshold = 0.1;  // beta: largest number of a step
@@ -72,7 +72,7 @@ struct Isam2Options {
 };
 
 struct Isam2 {
-  const Problem* problem = nullptr;  // outlives it
+  const factor::Problem* problem = nullptr;  // outlives it
   Isam2Options options;
   Index updates = 0;
 
@@ -81,9 +81,9 @@ struct Isam2 {
   Index rows = 0;       // factors that have entered, the gauge's row included
 
   // By variable; steps by scalar (Problem::step_at).
-  Lists<> rows_of;                // all rows that a variable will ever have
-  Values linearized;              // Theta, by vertex as all Values
-  Values estimate;                // Theta (+) Delta
+  graph::Lists<> rows_of;         // all rows that a variable will ever have
+  factor::Values linearized;      // Theta, by vertex as all Values
+  factor::Values estimate;        // Theta (+) Delta
   std::vector<double> step;       // Delta
   std::vector<double> told;       // Delta as it was last passed down
   std::vector<Index> changed;     // update that last passed it down
@@ -103,7 +103,7 @@ struct Isam2 {
     std::vector<Index> orphans;          // cliques below them
     std::vector<Index> variables, rows;  // of the top
     std::vector<Index> local;            // by variable: its place in `variables`
-    Pattern pattern;                     // of the top
+    graph::Pattern pattern;              // of the top
     std::vector<Index> made;             // cliques
     std::vector<int> row_at;             // by variable: its first row in the front at hand
     std::vector<Run> runs;
@@ -114,8 +114,8 @@ struct Isam2 {
 
 // An empty smoother for the problem's variables and rows. Throws a usage Error for an unknown
 // ordering.
-Isam2 make_isam2(const Problem& problem, const Isam2Options& options);
-Isam2 make_isam2(const Problem&&, const Isam2Options&) = delete;
+Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options);
+Isam2 make_isam2(const factor::Problem&&, const Isam2Options&) = delete;
 
 struct Isam2Report {
   Index reeliminated = 0;  // variables, new ones included
@@ -133,7 +133,7 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
 double chi2(const Isam2& isam);
 
 // The pattern of all that will ever come.
-inline const Pattern& pattern_of(const Isam2& isam) {
+inline const graph::Pattern& pattern_of(const Isam2& isam) {
   return isam.problem->variables.pattern;
 }
 
@@ -143,4 +143,4 @@ double largest(const Isam2& isam, Index j);
 // The next relinearization looks at variable j.
 void propose(Isam2& isam, Index j);
 
-}  // namespace sg
+}  // namespace sg::solve

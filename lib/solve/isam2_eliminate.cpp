@@ -3,7 +3,7 @@
 #include "lib/solve/assembly.h"
 #include "lib/solve/pivots.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 // Writes the lower triangle of an update above its diagonal, too.
@@ -15,7 +15,7 @@ void mirror(const Front& front) {
 }
 
 void assemble(Isam2& isam, const Isam2Clique& clique, const Front& front, const Kernels& kernel) {
-  const Pattern& pattern = pattern_of(isam);
+  const graph::Pattern& pattern = pattern_of(isam);
   std::vector<int>& row_at = isam.work.row_at;
   std::vector<Run>& runs = isam.work.runs;
   const int last_row = place_variables(frontals_of(isam.tree, clique),
@@ -57,4 +57,4 @@ void eliminate_clique(Isam2& isam, Index c, std::vector<Index>& undetermined) {
     append_vanished(front, frontals, dim, undetermined);
 }
 
-}  // namespace sg
+}  // namespace sg::solve

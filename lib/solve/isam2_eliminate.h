@@ -4,10 +4,10 @@
 
 #include "lib/solve/isam2.h"
 
-namespace sg {
+namespace sg::solve {
 
 // Sums clique c's front up from its rows and its children's updates, and eliminates its frontal
 // variables. Appends those of them with a pivot that vanished to `undetermined`.
 void eliminate_clique(Isam2& isam, Index c, std::vector<Index>& undetermined);
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -6,20 +6,20 @@
 #include "lib/solve/landmark_point.h"
 #include "lib/solve/pivots.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 void damp_ray(Isam2& isam, Index r, double* gram) {
-  const Problem& problem = *isam.problem;
-  const Pattern& pattern = pattern_of(isam);
-  const int width = block_columns(pattern, r);
+  const factor::Problem& problem = *isam.problem;
+  const graph::Pattern& pattern = pattern_of(isam);
+  const int width = factor::block_columns(pattern, r);
   const double distance = ray_distance(problem, r, isam.linearized);
   const bool unseen = distance < nearest_seen;
   if (unseen) std::fill_n(gram, width * width, 0.0);
   int column = 0;
   for (Index j : pattern.rows[r]) {
     const bool landmark =
-        problem.graph->role(problem.variables.variable_vertex[j]) == Role::landmark;
+        problem.graph->role(problem.variables.variable_vertex[j]) == graph::Role::landmark;
     if (landmark && unseen) {
       isam.unseen[j] = true;
       propose(isam, j);
@@ -38,15 +38,15 @@ bool seen_along_ray(const Isam2& isam, Index r) {
 void check_factor(const Isam2& isam, Index r, const double* block, const double* gram, int width) {
   bool fine = true;
   for (int k = 0; k < width; ++k)
-    fine &= gram[diagonal_at(k, width)] <= largest_entry * largest_entry;
+    fine &= gram[diagonal_at(k, width)] <= factor::largest_entry * factor::largest_entry;
   if (fine) return;
-  const int size = block_rows(*isam.problem, r) * width;
-  check_row(*isam.problem, r, {block, static_cast<std::size_t>(size)});
+  const int size = factor::block_rows(*isam.problem, r) * width;
+  factor::check_row(*isam.problem, r, {block, static_cast<std::size_t>(size)});
 }
 
 // Theta_j := Theta_j (+) Delta_j, Delta_j := 0.
 void move_point(Isam2& isam, Index j) {
-  const Problem& problem = *isam.problem;
+  const factor::Problem& problem = *isam.problem;
   const Index v = problem.variables.variable_vertex[j];
   std::vector<Index>& edges = isam.work.edges;
   edges.clear();
@@ -55,7 +55,7 @@ void move_point(Isam2& isam, Index j) {
   });
   double* const point = isam.linearized.data() + problem.value_at[v];
   const bool by_rays =
-      problem.graph->role(v) == Role::landmark &&
+      problem.graph->role(v) == graph::Role::landmark &&
       std::ranges::any_of(edges, [&](Index e) { return sees_along_ray(problem, e); });
   if (by_rays) {
     const auto step = std::span(isam.step).subspan(problem.step_at[j], pattern_of(isam).dim[j]);
@@ -85,12 +85,13 @@ void move_points(Isam2& isam) {
 }  // namespace
 
 void linearize_factor(Isam2& isam, Index r) {
-  const Pattern& pattern = pattern_of(isam);
-  const int height = block_rows(*isam.problem, r), width = block_columns(pattern, r);
+  const graph::Pattern& pattern = pattern_of(isam);
+  const int height = factor::block_rows(*isam.problem, r),
+            width = factor::block_columns(pattern, r);
   isam.work.numbers.resize(height * width + width * width + lane + height * (width + lane));
   double* const block = isam.work.numbers.data();
   double* const gram = block + height * width;
-  linearize_row(*isam.problem, isam.linearized, {}, r, block);
+  factor::linearize_row(*isam.problem, isam.linearized, {}, r, block);
   kernels().gram(block, height, width, gram, gram + width * width + lane);
   check_factor(isam, r, block, gram, width);
   if (seen_along_ray(isam, r)) damp_ray(isam, r, gram);
@@ -131,4 +132,4 @@ void mark_to_root(Isam2& isam, Index c) {
   }
 }
 
-}  // namespace sg
+}  // namespace sg::solve

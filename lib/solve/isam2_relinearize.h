@@ -3,7 +3,7 @@
 
 #include "lib/solve/isam2.h"
 
-namespace sg {
+namespace sg::solve {
 
 // Linearizes row r at the linearization points of its variables: its Gram matrix, and the least
 // pivots that it calls for. A landmark seen along a ray is damped, and where it cannot be seen the
@@ -17,4 +17,4 @@ Index relinearize(Isam2& isam);
 // Marks clique c (none for -1) and its ancestors, to be taken out.
 void mark_to_root(Isam2& isam, Index c);
 
-}  // namespace sg
+}  // namespace sg::solve

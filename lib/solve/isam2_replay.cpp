@@ -7,7 +7,7 @@
 #include "lib/solve/undetermined.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 // Edges of the step that stand at v, those to the pose before it first: odometry goes before loop
@@ -27,15 +27,16 @@ std::vector<Index> edges_at(const Isam2Replay& replay, Index v, std::span<const 
 }
 
 void start_vertex(Isam2Replay& replay, Index v, std::span<const Index> edges) {
-  const Problem& problem = *replay.problem;
-  Values& estimate = replay.isam.estimate;
+  const factor::Problem& problem = *replay.problem;
+  factor::Values& estimate = replay.isam.estimate;
   double* const x = estimate.data() + problem.value_at[v];
   const Index j = problem.variables.vertex_variable[v];
   const bool constant = j < 0 || j == problem.held;
   const bool keep = replay.start_from_file || (constant && !replay.file.empty());
-  if (keep || !place_vertex(problem, v, edges_at(replay, v, edges), replay.placed, estimate)) {
+  if (keep ||
+      !factor::place_vertex(problem, v, edges_at(replay, v, edges), replay.placed, estimate)) {
     if (replay.file.empty()) {
-      set_origin(problem.space[v], x);
+      factor::set_origin(problem.space[v], x);
     } else {
       std::copy(replay.file.begin() + problem.value_at[v],
                 replay.file.begin() + problem.value_at[v + 1], x);
@@ -48,44 +49,44 @@ void start_vertex(Isam2Replay& replay, Index v, std::span<const Index> edges) {
 
 // Elimination names the last variables of what is free to move; the null space knows them all.
 [[noreturn]] void throw_singular(const Isam2Replay& replay, Index step) {
-  const Problem& problem = *replay.problem;
+  const factor::Problem& problem = *replay.problem;
   Snapshot snapshot;
   take_snapshot(replay.isam, true, snapshot);
   std::vector<Id> id;
   for (Index j : snapshot.variable) {
     id.push_back(problem.graph->id[problem.variables.variable_vertex[j]]);
   }
-  throw computation_error("step " + std::to_string(step) + ": " +
-                          singular_error(null_space(snapshot.system), id).what());
+  throw text::computation_error("step " + std::to_string(step) + ": " +
+                                singular_error(null_space(snapshot.system), id).what());
 }
 
 }  // namespace
 
-Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& options, int min_obs,
-                              bool start_from_file) {
+Isam2Replay make_isam2_replay(const factor::Problem& problem, const Isam2Options& options,
+                              int min_obs, bool start_from_file) {
   const Graph& graph = *problem.graph;
   if (start_from_file && graph.edges_only)
-    throw input_error(graph.file, 0, "the file has no VERTEX line to start from");
+    throw text::input_error(graph.file, 0, "the file has no VERTEX line to start from");
   Isam2Replay result;
   result.problem = &problem;
   result.start_from_file = start_from_file;
-  if (!graph.edges_only) result.file = file_values(problem);
-  result.poses = pose_index(graph);
-  result.steps = replay(graph, result.poses, min_obs);
-  result.vertices = grouped(result.steps.vertex_step, result.steps.steps);
-  result.edges = grouped(result.steps.edge_step, result.steps.steps);
+  if (!graph.edges_only) result.file = factor::file_values(problem);
+  result.poses = graph::pose_index(graph);
+  result.steps = graph::replay(graph, result.poses, min_obs);
+  result.vertices = graph::grouped(result.steps.vertex_step, result.steps.steps);
+  result.edges = graph::grouped(result.steps.edge_step, result.steps.steps);
   result.placed.assign(graph.vertices(), false);
   result.isam = make_isam2(problem, options);
   return result;
 }
 
 Isam2Report replay_step(Isam2Replay& replay, Index k) {
-  const Problem& problem = *replay.problem;
+  const factor::Problem& problem = *replay.problem;
   const Graph& graph = *problem.graph;
   const auto edges = replay.edges[k];
   std::vector<Index> variables;
   std::vector<Index> rows;
-  for (const Role role : {Role::pose, Role::landmark, Role::other}) {
+  for (const graph::Role role : {graph::Role::pose, graph::Role::landmark, graph::Role::other}) {
     for (Index v : replay.vertices[k]) {
       if (graph.role(v) != role) continue;
       start_vertex(replay, v, edges);
@@ -101,9 +102,9 @@ Isam2Report replay_step(Isam2Replay& replay, Index k) {
   const Isam2Report report = update(replay.isam, variables, rows);
   if (!report.undetermined.empty()) throw_singular(replay, k);
   if (!report.finite)
-    throw computation_error("step " + std::to_string(k) +
-                            ": the estimate has left the finite numbers");
+    throw text::computation_error("step " + std::to_string(k) +
+                                  ": the estimate has left the finite numbers");
   return report;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -12,27 +12,27 @@
 #include "lib/graph/replay.h"
 #include "lib/solve/isam2.h"
 
-namespace sg {
+namespace sg::solve {
 
 struct Isam2Replay {
-  const Problem* problem = nullptr;  // outlives it
-  bool start_from_file = false;      // all vertices start where the file has them
-  Values file;                       // start_values without; of a file without estimates: empty
-  PoseIndex poses;
-  Replay steps;
-  Lists<> vertices;  // by step
-  Lists<> edges;     // by step
+  const factor::Problem* problem = nullptr;  // outlives it
+  bool start_from_file = false;              // all vertices start where the file has them
+  factor::Values file;  // start_values without; of a file without estimates: empty
+  graph::PoseIndex poses;
+  graph::Replay steps;
+  graph::Lists<> vertices;  // by step
+  graph::Lists<> edges;     // by step
   std::vector<bool> placed;
   Isam2 isam;
 };
 
 // start_from_file needs a file with estimates; throws an input Error otherwise.
-Isam2Replay make_isam2_replay(const Problem& problem, const Isam2Options& options, int min_obs,
-                              bool start_from_file);
-Isam2Replay make_isam2_replay(const Problem&&, const Isam2Options&, int, bool) = delete;
+Isam2Replay make_isam2_replay(const factor::Problem& problem, const Isam2Options& options,
+                              int min_obs, bool start_from_file);
+Isam2Replay make_isam2_replay(const factor::Problem&&, const Isam2Options&, int, bool) = delete;
 
 // Step k, after 0 .. k - 1. Throws a computation Error that names the step and the undetermined
 // vertices if it cannot be solved, and those of check_row (linearize.h).
 Isam2Report replay_step(Isam2Replay& replay, Index k);
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 bool separator_changed(const Isam2& isam, const Isam2Clique& clique) {
@@ -46,12 +46,13 @@ void tell(Isam2& isam, Index j) {
 
 // The estimate of variable j from its step. False if it is not finite.
 bool update_estimate(Isam2& isam, Index j) {
-  const Problem& problem = *isam.problem;
+  const factor::Problem& problem = *isam.problem;
   const Index v = problem.variables.variable_vertex[j];
   const Index begin = problem.value_at[v], end = problem.value_at[v + 1];
   std::copy(isam.linearized.begin() + begin, isam.linearized.begin() + end,
             isam.estimate.begin() + begin);
-  retract(problem.space[v], isam.step.data() + problem.step_at[j], isam.estimate.data() + begin);
+  factor::retract(problem.space[v], isam.step.data() + problem.step_at[j],
+                  isam.estimate.data() + begin);
   return std::all_of(isam.estimate.begin() + begin, isam.estimate.begin() + end,
                      [](double number) { return std::isfinite(number); });
 }
@@ -94,4 +95,4 @@ bool solve_down(Isam2& isam) {
   return finite;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -3,10 +3,10 @@
 
 #include "lib/solve/isam2.h"
 
-namespace sg {
+namespace sg::solve {
 
 // Solves from the new roots down to where steps change by less than the wildfire threshold, and
 // brings the estimates up to date. False if one is not finite.
 bool solve_down(Isam2& isam);
 
-}  // namespace sg
+}  // namespace sg::solve

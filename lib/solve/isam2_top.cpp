@@ -6,7 +6,7 @@
 #include "lib/solve/isam2_eliminate.h"
 #include "lib/solve/isam2_relinearize.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 // Beyond this share of all variables, the others come along: a new ordering pays.
@@ -54,8 +54,8 @@ void take_out(Isam2& isam) {
 // then a row for what each orphan passes up.
 void make_pattern(Isam2& isam) {
   Isam2::Work& work = isam.work;
-  const Pattern& whole = pattern_of(isam);
-  Pattern& pattern = work.pattern;
+  const graph::Pattern& whole = pattern_of(isam);
+  graph::Pattern& pattern = work.pattern;
   pattern.dim.clear();
   pattern.rows.clear();
   for (Index k = 0; k < static_cast<Index>(work.variables.size()); ++k) {
@@ -71,16 +71,16 @@ void make_pattern(Isam2& isam) {
 }
 
 // The new factors' variables go last, where the next ones will be close to the root.
-Order order_top(Isam2& isam, std::span<const Index> new_rows) {
+graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
   Isam2::Work& work = isam.work;
-  OrderOptions options;
+  order::OrderOptions options;
   for (Index r : new_rows) {
     for (Index j : pattern_of(isam).rows[r]) options.last.push_back(work.local[j]);
   }
   std::ranges::sort(options.last);
   const auto doubles = std::ranges::unique(options.last);
   options.last.erase(doubles.begin(), doubles.end());
-  return elimination_order(isam.options.ordering, work.pattern, options);
+  return order::elimination_order(isam.options.ordering, work.pattern, options);
 }
 
 // Adds clique k of the top's tree to the smoother's: work.variables and work.rows say what its
@@ -114,7 +114,7 @@ Index adopt_clique(Isam2& isam, const CliqueTree& top, Index k, std::span<const 
 void adopt_cliques(Isam2& isam, const CliqueTree& top) {
   Isam2::Work& work = isam.work;
   const auto factors = static_cast<Index>(work.rows.size());
-  const Lists<> rows = grouped(top.row_clique, top.cliques());  // then orphans
+  const graph::Lists<> rows = graph::grouped(top.row_clique, top.cliques());  // then orphans
   work.made.clear();
   for (Index k = 0; k < top.cliques(); ++k) {
     const auto end = std::ranges::lower_bound(rows[k], factors);
@@ -146,4 +146,4 @@ void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const
   std::ranges::sort(report.undetermined);
 }
 
-}  // namespace sg
+}  // namespace sg::solve

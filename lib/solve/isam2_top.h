@@ -3,7 +3,7 @@
 
 #include "lib/solve/isam2.h"
 
-namespace sg {
+namespace sg::solve {
 
 // Takes the marked cliques out, and eliminates their variables and the new ones again: rows that the
 // cliques held, the new ones, and what the orphans pass up. The new cliques are left in work.made,
@@ -11,4 +11,4 @@ namespace sg {
 void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const Index> new_rows,
               Isam2Report& report);
 
-}  // namespace sg
+}  // namespace sg::solve

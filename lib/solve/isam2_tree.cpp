@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 Offset list_size(const Isam2Clique& c) {
@@ -40,7 +40,7 @@ Index add_clique(Isam2Tree& tree, const Isam2Clique& sizes) {
   if (tree.list_pool.end() > static_cast<Offset>(tree.lists.size()))
     tree.lists.resize(2 * tree.list_pool.end());
   clique.numbers = tree.number_pool.take(number_size(clique));
-  tree.ec_bt += static_cast<Wide>(clique.ec);
+  tree.ec_bt += static_cast<elim::Wide>(clique.ec);
   ++tree.count;
   return c;
 }
@@ -51,7 +51,7 @@ void grow_numbers(Isam2Tree& tree) {
 
 void remove_clique(Isam2Tree& tree, Index c) {
   const Isam2Clique& clique = tree.cliques[c];
-  tree.ec_bt -= static_cast<Wide>(clique.ec);
+  tree.ec_bt -= static_cast<elim::Wide>(clique.ec);
   --tree.count;
   tree.list_pool.give(clique.lists, list_size(clique));
   tree.number_pool.give(clique.numbers, number_size(clique));
@@ -80,4 +80,4 @@ void unlink(Isam2Tree& tree, Index c) {
   clique.parent = clique.next = clique.previous = -1;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -16,7 +16,7 @@
 #include "lib/solve/front.h"
 #include "lib/solve/pool.h"
 
-namespace sg {
+namespace sg::solve {
 
 struct Isam2Clique {
   Index frontals = 0, separators = 0, rows = 0;
@@ -45,8 +45,8 @@ struct Isam2Tree {
   Pool number_pool{ChunkedArena::chunk};
   ChunkedArena numbers;
 
-  Index count = 0;  // cliques
-  Wide ec_bt = 0;   // sum over them of d_f (d_f + d_s)^2
+  Index count = 0;       // cliques
+  elim::Wide ec_bt = 0;  // sum over them of d_f (d_f + d_s)^2
 };
 
 inline std::span<Index> lists_of(Isam2Tree& tree, const Isam2Clique& c) {
@@ -75,4 +75,4 @@ void remove_clique(Isam2Tree& tree, Index c);
 void link(Isam2Tree& tree, Index c, Index parent);
 void unlink(Isam2Tree& tree, Index c);
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -9,21 +9,21 @@
 #include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 using Point = std::array<double, 3>;
 
-double along(const Ray& ray, const Point& p, std::size_t dim) {
+double along(const factor::Ray& ray, const Point& p, std::size_t dim) {
   double sum = 0;
   for (std::size_t k = 0; k < dim; ++k) sum += ray.ahead[k] * (p[k] - ray.origin[k]);
   return sum;
 }
 
 // Ahead of every observer, and on none's lens: Jacobians grow without bound there.
-bool well_ahead(std::span<const Ray> rays, const Point& p, std::size_t dim) {
+bool well_ahead(std::span<const factor::Ray> rays, const Point& p, std::size_t dim) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const Ray& ray : rays) {
+  for (const factor::Ray& ray : rays) {
     const double distance = along(ray, p, dim);
     least = std::min(least, distance);
     most = std::max(most, distance);
@@ -32,10 +32,10 @@ bool well_ahead(std::span<const Ray> rays, const Point& p, std::size_t dim) {
 }
 
 // The share of the step at which a distance has halved or doubled, 1 at most.
-double trusted_share(std::span<const Ray> rays, const Point& from, const Point& to,
+double trusted_share(std::span<const factor::Ray> rays, const Point& from, const Point& to,
                      std::size_t dim) {
   double share = 1;
-  for (const Ray& ray : rays) {
+  for (const factor::Ray& ray : rays) {
     const double distance = along(ray, from, dim);
     const double change = along(ray, to, dim) - distance;
     if (distance <= 0) continue;
@@ -47,18 +47,18 @@ double trusted_share(std::span<const Ray> rays, const Point& from, const Point& 
 
 }  // namespace
 
-bool sees_along_ray(const Problem& problem, Index e) {
+bool sees_along_ray(const factor::Problem& problem, Index e) {
   return problem.model[e]->rays != nullptr;
 }
 
-double ray_distance(const Problem& problem, Index e, const Values& values) {
+double ray_distance(const factor::Problem& problem, Index e, const factor::Values& values) {
   const auto ends = problem.graph->edge(e);
-  const auto landmark =
-      std::ranges::find_if(ends, [&](Index v) { return problem.graph->role(v) == Role::landmark; });
+  const auto landmark = std::ranges::find_if(
+      ends, [&](Index v) { return problem.graph->role(v) == graph::Role::landmark; });
   const auto dim = static_cast<std::size_t>(problem.graph->dim(*landmark));
   Point point{};
   std::copy_n(values.data() + problem.value_at[*landmark], dim, point.begin());
-  return along(ray_of(problem, e, values), point, dim);
+  return along(factor::ray_of(problem, e, values), point, dim);
 }
 
 double ray_damping(double distance) {
@@ -66,13 +66,13 @@ double ray_damping(double distance) {
   return 1 / (damped * damped);
 }
 
-void move_landmark(const Problem& problem, Index v, std::span<const Index> edges,
-                   std::span<const double> step, Values& estimate, double* point) {
+void move_landmark(const factor::Problem& problem, Index v, std::span<const Index> edges,
+                   std::span<const double> step, factor::Values& estimate, double* point) {
   const std::size_t dim = step.size();
   assert(dim <= std::tuple_size_v<Point>);
-  std::vector<Ray> rays;
+  std::vector<factor::Ray> rays;
   for (Index e : edges) {
-    if (sees_along_ray(problem, e)) rays.push_back(ray_of(problem, e, estimate));
+    if (sees_along_ray(problem, e)) rays.push_back(factor::ray_of(problem, e, estimate));
   }
   Point from{}, full{};
   std::copy_n(point, dim, from.begin());
@@ -80,18 +80,18 @@ void move_landmark(const Problem& problem, Index v, std::span<const Index> edges
   const double share = trusted_share(rays, from, full, dim);
   Point cut{}, meeting{};
   for (std::size_t k = 0; k < dim; ++k) cut[k] = from[k] + share * step[k];
-  const bool meet = triangulate(rays, static_cast<int>(dim), meeting.data());
+  const bool meet = factor::triangulate(rays, static_cast<int>(dim), meeting.data());
 
   double least = std::numeric_limits<double>::infinity();
   for (const Point& candidate : {cut, meet ? meeting : cut, from}) {
     if (!well_ahead(rays, candidate, dim)) continue;
     std::copy_n(candidate.begin(), dim, estimate.begin() + problem.value_at[v]);
     double sum = 0;
-    for (Index e : edges) sum += edge_chi2(problem, estimate, e);
+    for (Index e : edges) sum += factor::edge_chi2(problem, estimate, e);
     if (!(sum < least)) continue;
     least = sum;
     std::copy_n(candidate.begin(), dim, point);
   }
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -9,15 +9,15 @@
 
 #include "lib/factor/problem.h"
 
-namespace sg {
+namespace sg::solve {
 
 // Whether an edge sees a landmark along a ray.
-bool sees_along_ray(const Problem& problem, Index e);
+bool sees_along_ray(const factor::Problem& problem, Index e);
 
 // How far along its ray edge e has its landmark at `values`, negative behind the observer. A
 // measurement cannot be linearized at the lens or behind it (no camera sees there): below
 // `nearest_seen` it had better be left out.
-double ray_distance(const Problem& problem, Index e, const Values& values);
+double ray_distance(const factor::Problem& problem, Index e, const factor::Values& values);
 constexpr double nearest_seen = 0.1;
 
 // Information that damps the landmark's step along such an edge: that of a step as long as its
@@ -30,7 +30,7 @@ double ray_damping(double distance);
 // the lesser chi-square with all other vertices at `estimate`. It stays where it is if that is
 // better still, or if both lie behind an observer. `edges`: those at v that have entered. The
 // estimate of v is scratch.
-void move_landmark(const Problem& problem, Index v, std::span<const Index> edges,
-                   std::span<const double> step, Values& estimate, double* point);
+void move_landmark(const factor::Problem& problem, Index v, std::span<const Index> edges,
+                   std::span<const double> step, factor::Values& estimate, double* point);
 
-}  // namespace sg
+}  // namespace sg::solve

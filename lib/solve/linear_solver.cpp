@@ -6,12 +6,13 @@
 #include "lib/solve/eliminate.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
-LinearSolver tree_solver(const LinearSystem& system, const Order& order, int threads) {
+LinearSolver tree_solver(const factor::LinearSystem& system, const graph::Order& order,
+                         int threads) {
   const auto plan = std::make_shared<Elimination>(plan_elimination(system, order, threads));
-  return {[plan](const LinearSystem& s, std::span<const double> damping) {
+  return {[plan](const factor::LinearSystem& s, std::span<const double> damping) {
             return eliminate(*plan, s, damping).empty();
           },
           [plan](std::vector<double>& step) { back_substitute(*plan, step); }};
@@ -41,7 +42,7 @@ const Backend& find_backend(std::string_view name) {
   for (const Backend& backend : table) {
     if (backend.name == name) return backend;
   }
-  throw usage_error("no backend '" + std::string(name) + "'; there are: " + backend_names());
+  throw text::usage_error("no backend '" + std::string(name) + "'; there are: " + backend_names());
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 double dot(const double* a, const double* b, int n) {
@@ -20,12 +20,12 @@ void append_columns(const std::vector<Index>& earlier, Index j, NormalEquations&
       for (int a = 0; a < normal.dim[i]; ++a) normal.rows.push_back(normal.scalar_at[i] + a);
     }
     for (int a = 0; a <= b; ++a) normal.rows.push_back(normal.scalar_at[j] + a);
-    normal.column_begin.push_back(item_count(normal.rows.size()));
+    normal.column_begin.push_back(graph::item_count(normal.rows.size()));
   }
 }
 
 // Where the pairs that end in variable j have their place within its columns. `place` is by variable.
-void set_pairs(const Pattern& pattern, std::span<const Index> rows_of_j, Index j,
+void set_pairs(const graph::Pattern& pattern, std::span<const Index> rows_of_j, Index j,
                const std::vector<int>& place, NormalEquations& normal) {
   for (Index r : rows_of_j) {
     const auto variables = pattern.rows[r];
@@ -48,7 +48,7 @@ void add_pair(const double* a, int dim_a, const double* b, int dim_b, int height
   }
 }
 
-void add_row(const LinearSystem& system, Index r, NormalEquations& normal) {
+void add_row(const factor::LinearSystem& system, Index r, NormalEquations& normal) {
   const auto variables = system.pattern->rows[r];
   const auto count = static_cast<Offset>(variables.size());
   const int height = system.height[r];
@@ -82,9 +82,9 @@ std::vector<Index> starts(const std::vector<int>& dim) {
   return at;
 }
 
-NormalEquations normal_structure(const LinearSystem& system, const Order& order) {
-  const Pattern& pattern = *system.pattern;
-  assert(is_permutation(order, pattern.variables()) && is_laid_out(system));
+NormalEquations normal_structure(const factor::LinearSystem& system, const graph::Order& order) {
+  const graph::Pattern& pattern = *system.pattern;
+  assert(graph::is_permutation(order, pattern.variables()) && factor::is_laid_out(system));
   NormalEquations normal;
   normal.dim = pattern.dim;
   normal.step_at = starts(pattern.dim);
@@ -101,8 +101,8 @@ NormalEquations normal_structure(const LinearSystem& system, const Order& order)
   }
   normal.pair_at.assign(normal.pair_begin.back(), -1);
 
-  const Adjacency neighbours = adjacency(pattern);
-  const Lists<> rows_of = columns(pattern);
+  const graph::Adjacency neighbours = graph::adjacency(pattern);
+  const graph::Lists<> rows_of = graph::columns(pattern);
   std::vector<int> place(pattern.variables(), -1);
   normal.column_begin.push_back(0);
   for (Index j : order) {
@@ -124,9 +124,9 @@ NormalEquations normal_structure(const LinearSystem& system, const Order& order)
   return normal;
 }
 
-void form_normal_equations(const LinearSystem& system, std::span<const double> damping,
+void form_normal_equations(const factor::LinearSystem& system, std::span<const double> damping,
                            NormalEquations& normal) {
-  assert(is_laid_out(system) && system.pattern->dim == normal.dim);
+  assert(factor::is_laid_out(system) && system.pattern->dim == normal.dim);
   assert(damping.empty() || damping.size() == normal.gradient.size());
   std::ranges::fill(normal.numbers, 0.0);
   std::ranges::fill(normal.gradient, 0.0);
@@ -140,9 +140,9 @@ void form_normal_equations(const LinearSystem& system, std::span<const double> d
   }
 }
 
-void diagonal_and_gradient(const LinearSystem& system, std::vector<double>& diagonal,
+void diagonal_and_gradient(const factor::LinearSystem& system, std::vector<double>& diagonal,
                            std::vector<double>& gradient) {
-  const Pattern& pattern = *system.pattern;
+  const graph::Pattern& pattern = *system.pattern;
   const auto step_at = starts(pattern.dim);
   diagonal.assign(step_at.back(), 0.0);
   gradient.assign(step_at.back(), 0.0);
@@ -159,4 +159,4 @@ void diagonal_and_gradient(const LinearSystem& system, std::vector<double>& diag
   }
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -7,7 +7,7 @@
 
 #include "lib/factor/linearize.h"
 
-namespace sg {
+namespace sg::solve {
 
 struct NormalEquations {
   std::vector<Index> scalar_at;   // by variable: its first scalar in elimination order
@@ -28,14 +28,14 @@ struct NormalEquations {
 std::vector<Index> starts(const std::vector<int>& dim);
 
 // The structure, for an elimination order.
-NormalEquations normal_structure(const LinearSystem& system, const Order& order);
+NormalEquations normal_structure(const factor::LinearSystem& system, const graph::Order& order);
 
 // The numbers. damping: what is added to the diagonal of H, by scalar of a step; empty for nothing.
-void form_normal_equations(const LinearSystem& system, std::span<const double> damping,
+void form_normal_equations(const factor::LinearSystem& system, std::span<const double> damping,
                            NormalEquations& normal);
 
 // The diagonal of A' A and g, by scalar of a step, straight from the blocks.
-void diagonal_and_gradient(const LinearSystem& system, std::vector<double>& diagonal,
+void diagonal_and_gradient(const factor::LinearSystem& system, std::vector<double>& diagonal,
                            std::vector<double>& gradient);
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -2,9 +2,10 @@
 
 #include <cassert>
 
-namespace sg {
+namespace sg::solve {
 
-void set_floors(const LinearSystem& system, std::span<const Index> at, std::span<double> floors) {
+void set_floors(const factor::LinearSystem& system, std::span<const Index> at,
+                std::span<double> floors) {
   assert(at.size() >= system.pattern->dim.size());
   std::ranges::fill(floors, 0.0);
   for (Index r = 0; r < system.pattern->rows.size(); ++r) {
@@ -30,4 +31,4 @@ void append_vanished(const Front& front, std::span<const Index> frontals, std::s
   }
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -18,7 +18,7 @@
 #include "lib/factor/linearize.h"
 #include "lib/solve/front.h"
 
-namespace sg {
+namespace sg::solve {
 
 constexpr double vanishing = 1e-14;
 
@@ -28,11 +28,12 @@ inline void raise_floor(double& floor, double diagonal) {
 }
 
 // The floors of all scalars of a system; at: by variable, where its first scalar's is.
-void set_floors(const LinearSystem& system, std::span<const Index> at, std::span<double> floors);
+void set_floors(const factor::LinearSystem& system, std::span<const Index> at,
+                std::span<double> floors);
 
 // After Kernels::factorize: appends those of the front's frontal variables with a scalar whose pivot
 // was dropped.
 void append_vanished(const Front& front, std::span<const Index> frontals, std::span<const int> dim,
                      std::vector<Index>& variables);
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sg {
+namespace sg::solve {
 
 class Pool {
  public:
@@ -56,4 +56,4 @@ class Pool {
   std::int64_t end_ = 0;
 };
 
-}  // namespace sg
+}  // namespace sg::solve

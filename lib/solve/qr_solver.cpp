@@ -3,18 +3,19 @@
 #include "lib/solve/linear_solver.h"
 #include "lib/solve/scaled_qr.h"
 
-namespace sg {
+namespace sg::solve {
 
-LinearSolver qr_solver(const LinearSystem& /*system*/, const Order& /*order*/, int /*threads*/) {
+LinearSolver qr_solver(const factor::LinearSystem& /*system*/, const graph::Order& /*order*/,
+                       int /*threads*/) {
   const auto state = std::make_shared<ScaledQr>();
-  return {[state](const LinearSystem& system, std::span<const double> damping) {
+  return {[state](const factor::LinearSystem& system, std::span<const double> damping) {
             *state = scaled_qr(system, damping);
             return state->qr.dead == 0;
           },
           [state](std::vector<double>& step) {
-            step = back_substitute(state->qr, state->qr.right);
+            step = sparse::back_substitute(state->qr, state->qr.right);
             for (std::size_t k = 0; k < step.size(); ++k) step[k] /= state->length[k];
           }};
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -6,11 +6,11 @@
 
 #include "lib/solve/normal_equations.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
-void append_block(const LinearSystem& system, Index r, const std::vector<Index>& step_at,
-                  const std::vector<double>& length, Entries& A, std::vector<double>& b) {
+void append_block(const factor::LinearSystem& system, Index r, const std::vector<Index>& step_at,
+                  const std::vector<double>& length, sparse::Entries& A, std::vector<double>& b) {
   const int height = system.height[r];
   const double* number = system.block(r);
   for (Index j : system.pattern->rows[r]) {
@@ -26,8 +26,8 @@ void append_block(const LinearSystem& system, Index r, const std::vector<Index>&
 
 }  // namespace
 
-ScaledQr scaled_qr(const LinearSystem& system, std::span<const double> damping) {
-  assert(is_laid_out(system));
+ScaledQr scaled_qr(const factor::LinearSystem& system, std::span<const double> damping) {
+  assert(factor::is_laid_out(system));
   const std::vector<Index> step_at = starts(system.pattern->dim);
   ScaledQr result;
   std::vector<double> gradient;
@@ -35,7 +35,7 @@ ScaledQr scaled_qr(const LinearSystem& system, std::span<const double> damping) 
   for (std::size_t k = 0; k < damping.size(); ++k) result.length[k] += damping[k];
   for (double& length : result.length) length = length > 0 ? std::sqrt(length) : 1;
 
-  Entries A;
+  sparse::Entries A;
   A.columns = step_at.back();
   std::vector<double> b;
   for (Index r = 0; r < system.pattern->rows.size(); ++r) {
@@ -47,8 +47,8 @@ ScaledQr scaled_qr(const LinearSystem& system, std::span<const double> damping) 
   }
   A.rows = std::max<std::int64_t>(A.rows, 1);  // SPQR wants one
   b.resize(A.rows, 0.0);
-  result.qr = qr(A, b, dependent);
+  result.qr = sparse::qr(A, b, dependent);
   return result;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

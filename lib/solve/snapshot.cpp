@@ -1,13 +1,13 @@
 #include "lib/solve/snapshot.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 void take_patterns(const Isam2& isam, Snapshot& snapshot, std::vector<Index>& row) {
-  const Pattern& whole = isam.problem->variables.pattern;
+  const graph::Pattern& whole = isam.problem->variables.pattern;
   std::vector<Index> number(whole.variables(), -1);
   snapshot.variable.clear();
-  Pattern& pattern = snapshot.pattern;
+  graph::Pattern& pattern = snapshot.pattern;
   pattern.dim.clear();
   pattern.rows.clear();
   for (Index j = 0; j < whole.variables(); ++j) {
@@ -19,7 +19,7 @@ void take_patterns(const Isam2& isam, Snapshot& snapshot, std::vector<Index>& ro
   for (Index r = 0; r < whole.rows.size(); ++r) {
     if (isam.tree.row_clique[r] < 0) continue;
     if (r == isam.problem->graph->edges()) snapshot.anchored = pattern;
-    Pattern& target = r == isam.problem->graph->edges() ? snapshot.anchored : pattern;
+    graph::Pattern& target = r == isam.problem->graph->edges() ? snapshot.anchored : pattern;
     for (Index j : whole.rows[r]) target.rows.items.push_back(number[j]);
     target.rows.close();
     row.push_back(r);
@@ -33,19 +33,20 @@ void take_snapshot(const Isam2& isam, bool numbers, Snapshot& snapshot) {
   std::vector<Index> row;  // of the problem, by row of the snapshot
   take_patterns(isam, snapshot, row);
   if (!numbers) return;
-  const Problem& problem = *isam.problem;
-  LinearSystem& system = snapshot.system;
+  const factor::Problem& problem = *isam.problem;
+  factor::LinearSystem& system = snapshot.system;
   system.pattern = &snapshot.anchored;
   system.height.clear();
   system.begin.assign(1, 0);
   for (Index r : row) {
-    system.height.push_back(block_rows(problem, r));
+    system.height.push_back(factor::block_rows(problem, r));
     system.begin.push_back(system.begin.back() +
-                           system.height.back() * block_columns(problem.variables.pattern, r));
+                           system.height.back() *
+                               factor::block_columns(problem.variables.pattern, r));
   }
   system.numbers.resize(system.begin.back());
   for (Index k = 0; k < static_cast<Index>(row.size()); ++k)
-    linearize_row(problem, isam.linearized, {}, row[k], system.block(k));
+    factor::linearize_row(problem, isam.linearized, {}, row[k], system.block(k));
 }
 
-}  // namespace sg
+}  // namespace sg::solve

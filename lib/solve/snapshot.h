@@ -6,7 +6,7 @@
 
 #include "lib/solve/isam2.h"
 
-namespace sg {
+namespace sg::solve {
 
 // Its system points to its pattern: it stays where it is.
 struct Snapshot {
@@ -15,12 +15,12 @@ struct Snapshot {
   Snapshot& operator=(const Snapshot&) = delete;
 
   std::vector<Index> variable;  // of the problem, ascending
-  Pattern pattern;              // of the edges, as a score has it
-  Pattern anchored;             // with the gauge's row, if there is one, at the end
-  LinearSystem system;          // of `anchored`, at the linearization points
+  graph::Pattern pattern;       // of the edges, as a score has it
+  graph::Pattern anchored;      // with the gauge's row, if there is one, at the end
+  factor::LinearSystem system;  // of `anchored`, at the linearization points
 };
 
 // Overwrites `snapshot`. numbers: whether the system is wanted, too.
 void take_snapshot(const Isam2& isam, bool numbers, Snapshot& snapshot);
 
-}  // namespace sg
+}  // namespace sg::solve

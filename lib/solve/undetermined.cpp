@@ -9,7 +9,7 @@
 #include "lib/solve/normal_equations.h"
 #include "lib/solve/scaled_qr.h"
 
-namespace sg {
+namespace sg::solve {
 namespace {
 
 constexpr std::size_t most_ranges = 20;  // in a message
@@ -18,7 +18,7 @@ constexpr double noticeable = 1e-6;  // share of the largest movement in its par
 constexpr double rounding = 1e-12;   // |A z| beside |z|, all columns of unit length
 
 // The parts of a pattern: no row has variables of two of them. By variable, its part's first.
-std::vector<Index> parts(const Pattern& pattern) {
+std::vector<Index> parts(const graph::Pattern& pattern) {
   std::vector<Index> part(pattern.variables());
   std::iota(part.begin(), part.end(), 0);
   const auto root = [&](Index j) {
@@ -44,7 +44,7 @@ std::vector<double> sums(std::size_t parts, Index items, const auto& part_of, co
 
 // What finding the variables of a null space goes by.
 struct Search {
-  const Pattern& pattern;
+  const graph::Pattern& pattern;
   std::vector<Index> step_at;
   std::vector<Index> part;     // by variable
   std::vector<double> length;  // of A's columns
@@ -73,7 +73,7 @@ void remove(const Search& search, std::span<const double> along, std::vector<dou
 }
 
 // |A z|^2 by part, A's columns scaled to unit length.
-std::vector<double> residuals(const Search& search, const LinearSystem& system,
+std::vector<double> residuals(const Search& search, const factor::LinearSystem& system,
                               std::span<const double> z) {
   const auto residual = [&](Index r) {
     const int height = system.height[r];
@@ -101,8 +101,8 @@ std::vector<Id> ids_of(const std::vector<Index>& variables, std::span<const Id> 
 
 }  // namespace
 
-NullSpace null_space(const LinearSystem& system, std::span<const double> scaling) {
-  const Pattern& pattern = *system.pattern;
+NullSpace null_space(const factor::LinearSystem& system, std::span<const double> scaling) {
+  const graph::Pattern& pattern = *system.pattern;
   const ScaledQr factor = scaled_qr(system);
   NullSpace result;
   result.dimension = static_cast<Index>(factor.qr.dead);
@@ -119,7 +119,8 @@ NullSpace null_space(const LinearSystem& system, std::span<const double> scaling
     for (double& number : dead) {
       number = (bits() % 2 == 0 ? 1 : -1) * (0.5 + bits() / (2.0 * std::mt19937::max()));
     }
-    auto z = back_substitute(factor.qr, std::vector<double>(factor.qr.right.size(), 0.0), dead);
+    auto z =
+        sparse::back_substitute(factor.qr, std::vector<double>(factor.qr.right.size(), 0.0), dead);
     const auto square = search.by_part(z, z), cost = residuals(search, system, z);
     if (!along.empty()) remove(search, along, z);
     for (Index j = 0; j < pattern.variables(); ++j) {
@@ -135,14 +136,14 @@ NullSpace null_space(const LinearSystem& system, std::span<const double> scaling
   return result;
 }
 
-Error singular_error(const NullSpace& open, std::span<const Id> id) {
+text::Error singular_error(const NullSpace& open, std::span<const Id> id) {
   if (open.dimension == 0) {
-    return computation_error(
+    return text::computation_error(
         "the system is determined, but too ill-conditioned for its normal equations: "
         "sg-solve --backend qr does without them");
   }
   if (open.undetermined.empty() && !open.lost.empty()) {
-    return computation_error(
+    return text::computation_error(
         "the system is numerically singular: information that differs by too many orders of "
         "magnitude leaves rounding to decide on " +
         id_ranges(ids_of(open.lost, id)) +
@@ -150,13 +151,14 @@ Error singular_error(const NullSpace& open, std::span<const Id> id) {
   }
   const std::string scale = "nothing fixes the scale";
   if (open.undetermined.empty()) {
-    return computation_error("the system is singular: " + scale +
-                             "; FIX a second pose, or solve it without --gn as it starts");
+    return text::computation_error("the system is singular: " + scale +
+                                   "; FIX a second pose, or solve it without --gn as it starts");
   }
-  return computation_error("the system is singular: " + (open.scale ? scale + ", and " : "") +
-                           "the measurements leave " + id_ranges(ids_of(open.undetermined, id)) +
-                           " undetermined; add edges or FIX lines, or leave " +
-                           (open.undetermined.size() == 1 ? "it" : "them") + " out");
+  return text::computation_error("the system is singular: " + (open.scale ? scale + ", and " : "") +
+                                 "the measurements leave " +
+                                 id_ranges(ids_of(open.undetermined, id)) +
+                                 " undetermined; add edges or FIX lines, or leave " +
+                                 (open.undetermined.size() == 1 ? "it" : "them") + " out");
 }
 
 std::string id_ranges(const std::vector<Id>& ids) {
@@ -179,4 +181,4 @@ std::string id_ranges(const std::vector<Id>& ids) {
   return text;
 }
 
-}  // namespace sg
+}  // namespace sg::solve

@@ -10,7 +10,7 @@
 #include "lib/factor/linearize.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::solve {
 
 struct NullSpace {
   Index dimension = 0;              // scalars; 0: all is determined
@@ -20,12 +20,12 @@ struct NullSpace {
 };
 
 // scaling: a step in the null space that does not count (free_scaling; gauge.h); empty for none.
-NullSpace null_space(const LinearSystem& system, std::span<const double> scaling = {});
+NullSpace null_space(const factor::LinearSystem& system, std::span<const double> scaling = {});
 
 // The Error for such a system. id: by variable.
-Error singular_error(const NullSpace& open, std::span<const Id> id);
+text::Error singular_error(const NullSpace& open, std::span<const Id> id);
 
 // "vertex 5" or "vertices 3, 7-12 and 15", from ascending ids; at most 20 ranges, then "and 7 more".
 std::string id_ranges(const std::vector<Id>& ids);
 
-}  // namespace sg
+}  // namespace sg::solve

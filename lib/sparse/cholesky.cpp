@@ -5,20 +5,20 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::sparse {
 namespace {
 
-Error too_large() {
-  return computation_error("the system is too large for CHOLMOD");
+text::Error too_large() {
+  return text::computation_error("the system is too large for CHOLMOD");
 }
 
 // Warnings, as of a matrix that is not positive definite, have a positive status.
 void check(const Cholmod& session) {
   const int status = session.common.status;
   if (status >= CHOLMOD_OK) return;
-  if (status == CHOLMOD_OUT_OF_MEMORY) throw computation_error("CHOLMOD ran out of memory");
+  if (status == CHOLMOD_OUT_OF_MEMORY) throw text::computation_error("CHOLMOD ran out of memory");
   if (status == CHOLMOD_TOO_LARGE) throw too_large();
-  throw computation_error("CHOLMOD failed (status " + std::to_string(status) + ")");
+  throw text::computation_error("CHOLMOD failed (status " + std::to_string(status) + ")");
 }
 
 template <class Handle>
@@ -93,4 +93,4 @@ CholmodDense solve(cholmod_factor& factor, std::vector<double>& b, Cholmod& sess
   return checked<CholmodDense>(cholmod_solve(CHOLMOD_A, &factor, &right, &session.common), session);
 }
 
-}  // namespace sg
+}  // namespace sg::sparse

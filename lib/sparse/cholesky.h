@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace sg {
+namespace sg::sparse {
 
 // A session: settings, workspace and the status of the last call. Outlives what is made in it.
 struct Cholmod {
@@ -51,4 +51,4 @@ bool factorize(cholmod_sparse& matrix, cholmod_factor& factor, Cholmod& session)
 // x with A x = b.
 CholmodDense solve(cholmod_factor& factor, std::vector<double>& b, Cholmod& session);
 
-}  // namespace sg
+}  // namespace sg::sparse

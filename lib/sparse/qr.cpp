@@ -7,7 +7,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::sparse {
 namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
@@ -35,9 +35,9 @@ using Dense = std::unique_ptr<cholmod_dense, Freed<cholmod_l_free_dense>>;
 void check(const Session& session) {
   const int status = session.common.status;
   if (status >= CHOLMOD_OK) return;
-  throw computation_error(status == CHOLMOD_OUT_OF_MEMORY
-                              ? "SPQR ran out of memory"
-                              : "SPQR failed (status " + std::to_string(status) + ")");
+  throw text::computation_error(status == CHOLMOD_OUT_OF_MEMORY
+                                    ? "SPQR ran out of memory"
+                                    : "SPQR failed (status " + std::to_string(status) + ")");
 }
 
 Sparse compressed(Entries& A, Session& session) {
@@ -129,4 +129,4 @@ std::vector<double> back_substitute(const Qr& qr, std::vector<double> right,
   return x;
 }
 
-}  // namespace sg
+}  // namespace sg::sparse

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace sg {
+namespace sg::sparse {
 
 // Entries of a matrix; those of one place add up.
 struct Entries {
@@ -37,4 +37,4 @@ Qr qr(Entries& A, std::vector<double>& b, double tolerance);
 std::vector<double> back_substitute(const Qr& qr, std::vector<double> right,
                                     std::span<const double> dead = {});
 
-}  // namespace sg
+}  // namespace sg::sparse

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sg {
+namespace sg::text {
 
 // What went wrong decides a command's exit status.
 enum class Fault {
@@ -42,4 +42,4 @@ inline Error computation_error(const std::string& cause) {
   return {Fault::computation, "", 0, cause};
 }
 
-}  // namespace sg
+}  // namespace sg::text

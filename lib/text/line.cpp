@@ -1,6 +1,6 @@
 #include "lib/text/line.h"
 
-namespace sg {
+namespace sg::text {
 
 std::string quoted(std::string_view word) {
   constexpr std::size_t longest = 40;
@@ -43,4 +43,4 @@ void expect_end(std::string_view rest) {
   if (!word.empty()) throw BadLine{quoted(word) + " stands where the line should end"};
 }
 
-}  // namespace sg
+}  // namespace sg::text

@@ -8,7 +8,7 @@
 
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::text {
 
 // A line that has a defect: caught line by line, so that reading can go on.
 struct BadLine {
@@ -33,4 +33,4 @@ std::string_view read_number_text(std::string_view& rest);
 // BadLine unless nothing but blanks is left.
 void expect_end(std::string_view rest);
 
-}  // namespace sg
+}  // namespace sg::text

@@ -27,7 +27,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::text {
 namespace {
 
 namespace io = boost::iostreams;
@@ -146,4 +146,4 @@ Text read_text(const std::string& path) {
   }
 }
 
-}  // namespace sg
+}  // namespace sg::text

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace sg {
+namespace sg::text {
 
 struct Text {
   std::shared_ptr<const void> owner;  // keeps `view` alive
@@ -26,4 +26,4 @@ Text read_text(const std::string& path);
 // What messages call a path: itself, "-" <stdin>.
 std::string input_name(const std::string& path);
 
-}  // namespace sg
+}  // namespace sg::text

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace sg {
+namespace sg::text {
 
 constexpr bool is_blank(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
@@ -108,4 +108,4 @@ inline std::string format_number(double number) {
   return text.substr(1);
 }
 
-}  // namespace sg
+}  // namespace sg::text

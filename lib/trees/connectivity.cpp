@@ -9,7 +9,7 @@
 #include "lib/text/error.h"
 #include "lib/trees/spanning_trees.h"
 
-namespace sg {
+namespace sg::trees {
 namespace {
 
 // The nodes and links of one layer, nodes renumbered.
@@ -21,7 +21,7 @@ struct LayerGraph {
 
 // Nodes without a link are left out where others have some: but not under unit weights, where every
 // node could have one, and its lack of it is a lack of the graph.
-LayerGraph layer_graph(const Lists<TreeEdge>& links, Index nodes, const TreeLayer& layer,
+LayerGraph layer_graph(const graph::Lists<TreeEdge>& links, Index nodes, const TreeLayer& layer,
                        bool keep_isolated) {
   LayerGraph result;
   std::vector<Index> number(nodes, keep_isolated ? 0 : -1);
@@ -44,7 +44,7 @@ LayerGraph layer_graph(const Lists<TreeEdge>& links, Index nodes, const TreeLaye
 std::vector<LayerGraph> layer_graphs(const Graph& graph, TreeWeights kind,
                                      std::vector<double>& multiplicity) {
   const TreeNodes nodes = tree_nodes(graph);
-  const Lists<TreeEdge> links = tree_links(graph, nodes);
+  const graph::Lists<TreeEdge> links = tree_links(graph, nodes);
   std::vector<LayerGraph> graphs;
   for (const TreeLayer& layer : tree_layers(graph, kind)) {
     const bool all = kind != TreeWeights::rotation && graphs.empty();  // landmarks do not rotate
@@ -101,7 +101,7 @@ double sparse_connectivity(SpanningTrees& trees) {
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge, restarts, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw computation_error("the iteration for the algebraic connectivity does not converge");
+    throw text::computation_error("the iteration for the algebraic connectivity does not converge");
   return 1 / solver.eigenvalues()[0];
 }
 
@@ -129,4 +129,4 @@ std::optional<double> algebraic_connectivity(const Graph& graph, TreeWeights wei
   return layer.nodes <= dense_limit ? dense_connectivity(layer) : sparse_connectivity(trees);
 }
 
-}  // namespace sg
+}  // namespace sg::trees

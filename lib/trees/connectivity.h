@@ -6,7 +6,7 @@
 #include "lib/graph/graph.h"
 #include "lib/trees/tree_weights.h"
 
-namespace sg {
+namespace sg::trees {
 
 // log of the weighted number of spanning trees (Kirchhoff: the determinant of the Laplacian without
 // one node); under TreeWeights::dopt the sum over its layers, times their multiplicities.
@@ -22,4 +22,4 @@ double log_trees(const Graph& graph, TreeWeights weights);
 // a computation Error if the iteration does not converge.
 std::optional<double> algebraic_connectivity(const Graph& graph, TreeWeights weights);
 
-}  // namespace sg
+}  // namespace sg::trees

@@ -7,7 +7,7 @@
 #include "lib/sparse/cholesky.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::trees {
 namespace {
 
 Index root(std::vector<Index>& part, Index node) {
@@ -28,9 +28,9 @@ void find_parts(SpanningTrees& trees, std::span<const TreeEdge> links,
 }
 
 // The lower triangle of the grounded Laplacian, links of weight 0 included.
-Triplets laplacian(const SpanningTrees& trees, std::span<const TreeEdge> links,
-                   std::span<const double> weight) {
-  Triplets lower;
+sparse::Triplets laplacian(const SpanningTrees& trees, std::span<const TreeEdge> links,
+                           std::span<const double> weight) {
+  sparse::Triplets lower;
   for (Index v = 0; v < static_cast<Index>(trees.part.size()); ++v)
     lower.add(v, v, trees.part[v] == v ? 1 : 0);
   for (std::size_t k = 0; k < links.size(); ++k) {
@@ -64,17 +64,19 @@ void take_factor(SpanningTrees& trees, const cholmod_factor& factor) {
 
 void factorize(SpanningTrees& trees, std::span<const TreeEdge> links,
                std::span<const double> weight) {
-  Cholmod session;
+  sparse::Cholmod session;
   session.common.final_ll = false;  // L D L^T
   session.common.supernodal = CHOLMOD_SIMPLICIAL;
-  Triplets lower = laplacian(trees, links, weight);
-  const CholmodSparse matrix = sparse_matrix(static_cast<Index>(trees.part.size()), lower, session);
-  const CholmodFactor factor = analyze(*matrix, CHOLMOD_AMD, session);
-  const bool done = factorize(*matrix, *factor, session);
+  sparse::Triplets lower = laplacian(trees, links, weight);
+  const sparse::CholmodSparse matrix =
+      sparse::sparse_matrix(static_cast<Index>(trees.part.size()), lower, session);
+  const sparse::CholmodFactor factor = sparse::analyze(*matrix, CHOLMOD_AMD, session);
+  const bool done = sparse::factorize(*matrix, *factor, session);
   if (done) take_factor(trees, *factor);
   if (!done || std::any_of(trees.diagonal.begin(), trees.diagonal.end(),
                            [](double d) { return !(d > 0) || !std::isfinite(d); }))
-    throw computation_error("the graph's Laplacian cannot be factored: weights differ too much");
+    throw text::computation_error(
+        "the graph's Laplacian cannot be factored: weights differ too much");
 }
 
 // The next column on the path to the root, -1 behind it.
@@ -181,4 +183,4 @@ void solve(SpanningTrees& trees, std::span<double> x) {
   std::fill(y.begin(), y.end(), 0);
 }
 
-}  // namespace sg
+}  // namespace sg::trees

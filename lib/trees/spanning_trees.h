@@ -19,7 +19,7 @@
 
 #include "lib/trees/tree_weights.h"
 
-namespace sg {
+namespace sg::trees {
 
 struct SpanningTrees {
   std::vector<Index> position;  // of every node in the elimination order
@@ -52,4 +52,4 @@ double add_link(SpanningTrees& trees, const TreeEdge& link, double weight);
 // x <- M^-1 x with M the grounded Laplacian; x by node.
 void solve(SpanningTrees& trees, std::span<double> x);
 
-}  // namespace sg
+}  // namespace sg::trees

@@ -6,14 +6,14 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::trees {
 namespace {
 
 // Where one vertex stands from the other: of an edge between two of them.
-const EdgeType& measured_type(const Graph& graph, Index e) {
-  const EdgeType& type = graph.type_of_edge(e);
-  if (type.arity != 2 || type.counted || facts(type.space).translation.size == 0) {
-    throw error_at(
+const graph::EdgeType& measured_type(const Graph& graph, Index e) {
+  const graph::EdgeType& type = graph.type_of_edge(e);
+  if (type.arity != 2 || type.counted || graph::facts(type.space).translation.size == 0) {
+    throw graph::error_at(
         graph, graph.edge_line[e],
         type.tag + " measures neither translation nor rotation: only unit weights are known");
   }
@@ -22,7 +22,7 @@ const EdgeType& measured_type(const Graph& graph, Index e) {
 
 // The determinant of these rows and columns of the information, to the power of one over their
 // number.
-double mean_information(const EdgeType& type, const Axes& axes,
+double mean_information(const graph::EdgeType& type, const graph::Axes& axes,
                         const std::vector<double>& numbers) {
   const auto w = [&](int i, int j) {
     i += axes.first, j += axes.first;
@@ -51,9 +51,9 @@ std::array<TreeLayer, 2> information_layers(const Graph& graph) {
   std::vector<double> numbers;
   for (Index e = 0; e < graph.edges(); ++e) {
     if (graph.edge(e).size() < 2) continue;
-    const EdgeType& type = measured_type(graph, e);
-    const SpaceRow& space = facts(type.space);
-    edge_numbers(graph, e, numbers);
+    const graph::EdgeType& type = measured_type(graph, e);
+    const graph::SpaceRow& space = graph::facts(type.space);
+    graph::edge_numbers(graph, e, numbers);
     layers[0].weight[e] = mean_information(type, space.translation, numbers);
     layers[1].weight[e] =
         mean_information(type, space.rotation, numbers) * space.radian * space.radian;
@@ -86,8 +86,8 @@ TreeNodes tree_nodes(const Graph& graph) {
   return nodes;
 }
 
-Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes) {
-  Lists<TreeEdge> links;
+graph::Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes) {
+  graph::Lists<TreeEdge> links;
   for (Index e = 0; e < graph.edges(); ++e) {
     const auto ends = graph.edge(e);
     for (std::size_t k = 1; k < ends.size(); ++k)
@@ -106,4 +106,4 @@ std::vector<TreeLayer> tree_layers(const Graph& graph, TreeWeights kind) {
   return {std::move(chosen)};
 }
 
-}  // namespace sg
+}  // namespace sg::trees

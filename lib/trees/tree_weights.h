@@ -16,7 +16,7 @@
 #include "lib/graph/graph.h"
 #include "lib/graph/lists.h"
 
-namespace sg {
+namespace sg::trees {
 
 enum class TreeWeights : std::uint8_t { unit, translation, rotation, dopt };
 // The kind of that name, if there is one.
@@ -33,7 +33,7 @@ TreeNodes tree_nodes(const Graph& graph);
 struct TreeEdge {
   Index u, v;
 };
-Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes);
+graph::Lists<TreeEdge> tree_links(const Graph& graph, const TreeNodes& nodes);
 
 // What one kind of weight makes of the edges. An edge of weight 0 has no part in it. D-optimality
 // has two layers, all others one.
@@ -49,4 +49,4 @@ struct TreeLayer {
 // (a camera's pixels, say), under any but unit weights.
 std::vector<TreeLayer> tree_layers(const Graph& graph, TreeWeights kind);
 
-}  // namespace sg
+}  // namespace sg::trees

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 // The landmarks of a square, sorted by the cells of a grid.
 struct Grid {
-  double size;        // of a cell, metres
-  Index across;       // cells along one side
-  Lists<> landmarks;  // of every cell, row by row
+  double size;               // of a cell, metres
+  Index across;              // cells along one side
+  graph::Lists<> landmarks;  // of every cell, row by row
 
   Index along(double x) const {
     return std::clamp(static_cast<Index>(std::floor(x / size)), 0, across - 1);
@@ -26,7 +26,7 @@ Grid sorted_by_cell(const std::vector<Eigen::Vector3d>& points, double side, dou
   grid.across = static_cast<Index>(side / grid.size) + 1;
   std::vector<Index> cell;
   for (const auto& point : points) cell.push_back(grid.cell(point));
-  grid.landmarks = grouped(cell, grid.across * grid.across);
+  grid.landmarks = graph::grouped(cell, grid.across * grid.across);
   return grid;
 }
 
@@ -82,4 +82,4 @@ LandmarkGraph city(const City& world) {
   return graph;
 }
 
-}  // namespace sg
+}  // namespace sg::world

@@ -5,7 +5,7 @@
 #include "lib/world/landmark_graph.h"
 #include "lib/world/streets.h"
 
-namespace sg {
+namespace sg::world {
 
 struct City {
   Index poses = 3500;
@@ -24,4 +24,4 @@ struct City {
 // Time and memory O(poses + landmarks + landmarks in range of a pose).
 LandmarkGraph city(const City& world);
 
-}  // namespace sg
+}  // namespace sg::world

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 struct GridPoint {
@@ -140,4 +140,4 @@ PoseGraph<SE3> grid3d(const Grid3d& world) {
   return graph;
 }
 
-}  // namespace sg
+}  // namespace sg::world

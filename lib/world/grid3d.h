@@ -5,7 +5,7 @@
 
 #include "lib/world/pose_graph.h"
 
-namespace sg {
+namespace sg::world {
 
 enum class GridWalk { sweep, random };
 
@@ -24,4 +24,4 @@ struct Grid3d {
 // on above the cube.
 PoseGraph<SE3> grid3d(const Grid3d& world);
 
-}  // namespace sg
+}  // namespace sg::world

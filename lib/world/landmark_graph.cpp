@@ -9,7 +9,7 @@
 #include "lib/geometry/triangle.h"
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 using Eigen::Quaterniond;
@@ -44,7 +44,7 @@ SE3 true_pose<SE3>(const LandmarkGraph& graph, Index k) {
 }
 
 template <class Pose>
-using Point = decltype(act(Pose{}, {}));
+using Point = decltype(geometry::act(Pose{}, {}));
 template <class Pose>
 Point<Pose> true_landmark(const LandmarkGraph& graph, Index l) {
   return graph.landmarks[l].head<Point<Pose>::SizeAtCompileTime>();
@@ -81,19 +81,20 @@ void disturb(Observation& observation, Sensor sensor, Random& random) {
   for (int i = 0; i < observation.size; ++i) {
     observation.value[i] += normal(random, observation.sigma[i]);
   }
-  if (sensor == Sensor::bearing) observation.value[0] = wrap(observation.value[0]);
+  if (sensor == Sensor::bearing) observation.value[0] = geometry::wrap(observation.value[0]);
 }
 
-EdgeTag observation_type(Sensor sensor) {
-  return std::array{EdgeTag::project_xyz2uv, EdgeTag::se3_trackxyz, EdgeTag::project_disparity,
-                    EdgeTag::se2_xy, EdgeTag::bearing_se2_xy}[static_cast<std::size_t>(sensor)];
+graph::EdgeTag observation_type(Sensor sensor) {
+  return std::array{graph::EdgeTag::project_xyz2uv, graph::EdgeTag::se3_trackxyz,
+                    graph::EdgeTag::project_disparity, graph::EdgeTag::se2_xy,
+                    graph::EdgeTag::bearing_se2_xy}[static_cast<std::size_t>(sensor)];
 }
 
 void observation_line(const LandmarkGraph& graph, Index pose, Index landmark,
                       const Observation& observation, Out& out) {
   const Id point = Id{landmark} + static_cast<Id>(graph.poses.size());
   const bool point_first = graph.sensor == Sensor::mono;
-  tag(out, name(observation_type(graph.sensor)));
+  tag(out, graph::name(observation_type(graph.sensor)));
   id(out, point_first ? point : pose);
   id(out, point_first ? pose : point);
   if (!planar(graph.sensor)) id(out, 0);
@@ -112,18 +113,18 @@ void parameter_line(const LandmarkGraph& graph, Out& out) {
   const double f = optics.focal, c = principal_point(optics);
   switch (graph.sensor) {
     case Sensor::mono:
-      tag(out, name(ParamTag::pinhole));
+      tag(out, graph::name(graph::ParamTag::pinhole));
       id(out, 0);
       for (double x : {f, c, c, optics.baseline}) number(out, x);
       break;
     case Sensor::disparity:
-      tag(out, name(ParamTag::camera));
+      tag(out, graph::name(graph::ParamTag::camera));
       id(out, 0);
       numbers(out, SE3{optical, Vector3d::Zero()});
       for (double x : {f, f, c, c}) number(out, x);
       break;
     default:
-      tag(out, name(ParamTag::se3_offset));
+      tag(out, graph::name(graph::ParamTag::se3_offset));
       id(out, 0);
       numbers(out, SE3{});
   }
@@ -136,7 +137,7 @@ void pose_line(const LandmarkGraph&, Index k, const SE2& pose, Out& out) {
 }
 void pose_line(const LandmarkGraph& graph, Index k, const SE3& pose, Out& out) {
   if (graph.sensor != Sensor::mono) return vertex_line(out, k, pose);
-  tag(out, name(VertexTag::expmap));
+  tag(out, graph::name(graph::VertexTag::expmap));
   id(out, k);
   numbers(out, pose);
   end_line(out);
@@ -149,7 +150,7 @@ Matrix6d world_information(const PoseNoise& noise, const SE3& end) {
   local.head<3>().setConstant(1 / (noise.translation * noise.translation));
   local.tail<3>().setConstant(1 / (noise.rotation * noise.rotation));
   const Matrix6d back = adjoint(inverse(end));
-  return swapped(Matrix6d(back.transpose() * local.asDiagonal() * back));
+  return geometry::swapped(Matrix6d(back.transpose() * local.asDiagonal() * back));
 }
 
 void odometry_line(const LandmarkGraph& graph, Index k, const SE2& z, Out& out) {
@@ -157,13 +158,13 @@ void odometry_line(const LandmarkGraph& graph, Index k, const SE2& z, Out& out) 
 }
 void odometry_line(const LandmarkGraph& graph, Index k, const SE3& z, Out& out) {
   if (graph.sensor != Sensor::mono) return edge_line(out, k - 1, k, z, graph.odometry_noise);
-  tag(out, name(EdgeTag::expmap));
+  tag(out, graph::name(graph::EdgeTag::expmap));
   id(out, k - 1);
   id(out, k);
   numbers(out, z);
   const Matrix6d information = world_information(graph.odometry_noise, true_pose<SE3>(graph, k));
   const double nothing = 1e-12 * information.diagonal().maxCoeff();  // rounding, not information
-  for (const double x : upper_triangle(information)) {
+  for (const double x : geometry::upper_triangle(information)) {
     significant(out, std::abs(x) < nothing ? 0 : x);
   }
   end_line(out);
@@ -223,10 +224,12 @@ void write_vertices(const LandmarkGraph& graph, const Odometry<Pose>& motions, O
   for (Index l = 0; l < static_cast<Index>(graph.landmarks.size()); ++l) {
     Point<Pose> point = true_landmark<Pose>(graph, l);
     if (motions.copy == Copy::noisy) {
-      point = act(estimate[middle[l]], act(inverse(true_pose<Pose>(graph, middle[l])), point));
+      point =
+          geometry::act(estimate[middle[l]],
+                        geometry::act(geometry::inverse(true_pose<Pose>(graph, middle[l])), point));
       for (double& x : point) x += normal(random, graph.guess_noise);
     }
-    tag(out, name(planar(graph.sensor) ? VertexTag::xy : VertexTag::trackxyz));
+    tag(out, graph::name(planar(graph.sensor) ? graph::VertexTag::xy : graph::VertexTag::trackxyz));
     id(out, Id{n} + l);
     for (const double x : point) number(out, x);
     end_line(out);
@@ -238,9 +241,9 @@ void write_edges(const LandmarkGraph& graph, Odometry<Pose> motions, Out& out) {
   Random random = random_stream(graph.seed, Stream::measurements);
   for (Index k = 0; k < static_cast<Index>(graph.poses.size()); ++k) {
     if (k > 0) odometry_line(graph, k, measured_motion(motions, k), out);
-    const Pose world = inverse(true_pose<Pose>(graph, k));
+    const Pose world = geometry::inverse(true_pose<Pose>(graph, k));
     for (const Index l : graph.seen[k]) {
-      Observation observation = observe(graph, act(world, true_landmark<Pose>(graph, l)));
+      Observation observation = observe(graph, geometry::act(world, true_landmark<Pose>(graph, l)));
       if (motions.copy == Copy::noisy) disturb(observation, graph.sensor, random);
       observation_line(graph, k, l, observation, out);
     }
@@ -271,7 +274,7 @@ void keep_triangulated(LandmarkGraph& graph, const Triangulation& wanted) {
   const std::vector<bool> keep = triangulated(graph, wanted);
   std::vector<Index> number(graph.landmarks.size(), -1);
   std::vector<Vector3d> landmarks;
-  Lists<> seen;
+  graph::Lists<> seen;
   for (Index k = 0; k < graph.seen.size(); ++k) {
     for (const Index l : graph.seen[k]) {
       if (!keep[l]) continue;
@@ -295,4 +298,4 @@ void write_graph(const LandmarkGraph& graph, Copy copy, Out& out) {
   }
 }
 
-}  // namespace sg
+}  // namespace sg::world

@@ -28,7 +28,7 @@
 #include "lib/graph/lists.h"
 #include "lib/world/odometry.h"
 
-namespace sg {
+namespace sg::world {
 
 enum class Sensor { mono, xyz, disparity, xy, bearing };
 constexpr bool planar(Sensor sensor) {
@@ -58,7 +58,7 @@ struct LandmarkGraph {
   Optics optics;
   std::vector<SE2> poses;                  // true ones, of the robot
   std::vector<Eigen::Vector3d> landmarks;  // true ones; a planar sensor ignores z
-  Lists<> seen;                            // landmarks that each pose observes
+  graph::Lists<> seen;                     // landmarks that each pose observes
   PoseNoise odometry_noise{};
   double guess_noise = 0.1;  // metres along each axis, of landmark estimates
   Guess guess = Guess::odometry;
@@ -95,4 +95,4 @@ void keep_triangulated(LandmarkGraph& graph, const Triangulation& wanted);
 // its observations, by its own estimate, sees it, plus noise. Does not flush.
 void write_graph(const LandmarkGraph& graph, Copy copy, Out& out);
 
-}  // namespace sg
+}  // namespace sg::world

@@ -5,7 +5,7 @@
 
 #include "lib/geometry/numbers.h"
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 // True of one of q and -q: the sign of its last nonzero component, the real part being the last.
@@ -72,21 +72,21 @@ void diagonal_information(Out& out, const double* diagonal, int size) {
 }
 
 void vertex_line(Out& out, Id vertex, const SE2& pose) {
-  tag(out, name(VertexTag::se2));
+  tag(out, graph::name(graph::VertexTag::se2));
   id(out, vertex);
   numbers(out, pose);
   end_line(out);
 }
 
 void vertex_line(Out& out, Id vertex, const SE3& pose) {
-  tag(out, name(VertexTag::se3));
+  tag(out, graph::name(graph::VertexTag::se3));
   id(out, vertex);
   numbers(out, pose);
   end_line(out);
 }
 
 void edge_line(Out& out, Id a, Id b, const SE2& z, const PoseNoise& noise) {
-  tag(out, name(EdgeTag::se2));
+  tag(out, graph::name(graph::EdgeTag::se2));
   id(out, a);
   id(out, b);
   numbers(out, z);
@@ -96,7 +96,7 @@ void edge_line(Out& out, Id a, Id b, const SE2& z, const PoseNoise& noise) {
 }
 
 void edge_line(Out& out, Id a, Id b, const SE3& z, const PoseNoise& noise) {
-  tag(out, name(EdgeTag::se3));
+  tag(out, graph::name(graph::EdgeTag::se3));
   id(out, a);
   id(out, b);
   numbers(out, z);
@@ -105,4 +105,4 @@ void edge_line(Out& out, Id a, Id b, const SE3& z, const PoseNoise& noise) {
   end_line(out);
 }
 
-}  // namespace sg
+}  // namespace sg::world

@@ -13,7 +13,7 @@
 #include "lib/world/out.h"
 #include "lib/world/random.h"
 
-namespace sg {
+namespace sg::world {
 
 // Standard deviations of a relative pose measurement.
 struct PoseNoise {
@@ -42,4 +42,4 @@ void numbers(Out& out, const SE2& pose);
 void numbers(Out& out, const SE3& pose);
 void diagonal_information(Out& out, const double* diagonal, int size);
 
-}  // namespace sg
+}  // namespace sg::world

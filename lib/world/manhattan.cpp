@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 // The last pose at every place of a square, -1 where nobody was.
@@ -51,4 +51,4 @@ PoseGraph<SE2> manhattan(const Manhattan& world) {
           .seed = world.seed};
 }
 
-}  // namespace sg
+}  // namespace sg::world

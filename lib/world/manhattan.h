@@ -5,7 +5,7 @@
 #include "lib/world/pose_graph.h"
 #include "lib/world/streets.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Manhattan {
   Index poses = 3500;
@@ -22,4 +22,4 @@ struct Manhattan {
 // O(poses reach^2), memory O(poses + side^2).
 PoseGraph<SE2> manhattan(const Manhattan& world);
 
-}  // namespace sg
+}  // namespace sg::world

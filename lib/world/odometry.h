@@ -5,7 +5,7 @@
 
 #include "lib/world/lines.h"
 
-namespace sg {
+namespace sg::world {
 
 // Of each world there are two graphs: the noisy one, and the exact one with the same edges and the
 // same information, but true poses and true measurements.
@@ -35,7 +35,7 @@ Odometry<Pose> odometry(std::function<Pose(Index)> truth, const PoseNoise& noise
 template <class Pose>
 Pose measured_motion(Odometry<Pose>& odometry, Index k) {
   const Pose next = odometry.truth(k);
-  const Pose z = between(odometry.last, next);
+  const Pose z = geometry::between(odometry.last, next);
   odometry.last = next;
   if (odometry.copy == Copy::exact) return rounded(z);
   return disturbed(z, odometry.noise, odometry.random);
@@ -49,9 +49,10 @@ void for_each_estimate(Index poses, Odometry<Pose> odometry, Guess guess, const 
   Pose pose = rounded(odometry.last);
   for (Index k = 0; k < poses; ++k) {
     if (k > 0)
-      pose = rounded(exact ? odometry.truth(k) : compose(pose, measured_motion(odometry, k)));
+      pose = rounded(exact ? odometry.truth(k)
+                           : geometry::compose(pose, measured_motion(odometry, k)));
     use(k, pose);
   }
 }
 
-}  // namespace sg
+}  // namespace sg::world

@@ -5,7 +5,7 @@
 
 #include "lib/text/words.h"
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 constexpr std::size_t full = 1 << 20;
@@ -33,11 +33,11 @@ void tag(Out& out, std::string_view tag) {
 }
 
 void id(Out& out, Id id) {
-  append_number(out.buffer, id);
+  text::append_number(out.buffer, id);
 }
 
 void number(Out& out, double number) {
-  if (!(std::abs(number) < largest)) return append_number(out.buffer, number);
+  if (!(std::abs(number) < largest)) return text::append_number(out.buffer, number);
   char text[40] = {' '};
   std::int64_t units = std::llround(number * grid);
   char* at = text + 1;
@@ -67,4 +67,4 @@ void flush(Out& out) {
   out.buffer.clear();
 }
 
-}  // namespace sg
+}  // namespace sg::world

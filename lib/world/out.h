@@ -13,7 +13,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Out {
   std::function<void(std::string_view)> put;  // takes the text, piece by piece
@@ -32,4 +32,4 @@ void end_line(Out& out);
 // Hands on what the buffer still holds. The last thing to do.
 void flush(Out& out);
 
-}  // namespace sg
+}  // namespace sg::world

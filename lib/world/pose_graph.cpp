@@ -1,6 +1,6 @@
 #include "lib/world/pose_graph.h"
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 template <class Pose>
@@ -10,7 +10,7 @@ void write_edges(const PoseGraph<Pose>& graph, Copy copy, Odometry<Pose> odometr
   for (Index k = 1; k < graph.poses; ++k) {
     edge_line(out, k - 1, k, measured_motion(odometry, k), graph.noise);
     for (; loop != graph.loops.end() && loop->to == k; ++loop) {
-      const Pose z = between(graph.truth(loop->from), graph.truth(k));
+      const Pose z = geometry::between(graph.truth(loop->from), graph.truth(k));
       edge_line(out, loop->from, k,
                 copy == Copy::exact ? rounded(z) : disturbed(z, graph.noise, random), graph.noise);
     }
@@ -34,4 +34,4 @@ void write_graph(const PoseGraph<SE3>& graph, Copy copy, Out& out) {
   write(graph, copy, out);
 }
 
-}  // namespace sg
+}  // namespace sg::world

@@ -7,7 +7,7 @@
 
 #include "lib/world/odometry.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Loop {
   Index from;  // the earlier pose
@@ -29,4 +29,4 @@ struct PoseGraph {
 void write_graph(const PoseGraph<SE2>& graph, Copy copy, Out& out);
 void write_graph(const PoseGraph<SE3>& graph, Copy copy, Out& out);
 
-}  // namespace sg
+}  // namespace sg::world

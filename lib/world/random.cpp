@@ -5,7 +5,7 @@
 #include <boost/random/seed_seq.hpp>
 #include <boost/random/uniform_01.hpp>
 
-namespace sg {
+namespace sg::world {
 
 Random random_stream(std::uint64_t seed, Stream stream) {
   const std::array<std::uint32_t, 3> words{static_cast<std::uint32_t>(seed),
@@ -31,4 +31,4 @@ bool chance(Random& random, double probability) {
   return uniform(random, 0, 1) < probability;
 }
 
-}  // namespace sg
+}  // namespace sg::world

@@ -9,7 +9,7 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <cstdint>
 
-namespace sg {
+namespace sg::world {
 
 using Random = boost::random::mt19937_64;
 
@@ -22,4 +22,4 @@ double normal(Random& random, double sigma);             // of mean 0
 int below(Random& random, int end);                      // in 0 .. end-1
 bool chance(Random& random, double probability);
 
-}  // namespace sg
+}  // namespace sg::world

@@ -7,7 +7,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 // y = A sin(w x), by its slope.
@@ -53,7 +53,7 @@ Index landmark_count(const Sine& world, double area) {
   if (world.landmarks > 0) return world.landmarks;
   const double count = std::round(world.density * area);
   if (!(count <= std::numeric_limits<Index>::max()))
-    throw computation_error("the density asks for more landmarks than a graph can hold");
+    throw text::computation_error("the density asks for more landmarks than a graph can hold");
   return static_cast<Index>(count);
 }
 
@@ -98,4 +98,4 @@ LandmarkGraph sine(const Sine& world) {
   return graph;
 }
 
-}  // namespace sg
+}  // namespace sg::world

@@ -7,7 +7,7 @@
 
 #include "lib/world/landmark_graph.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Sine {
   Index poses = 400;
@@ -31,4 +31,4 @@ struct Sine {
 // wants more landmarks than a graph can hold.
 LandmarkGraph sine(const Sine& world);
 
-}  // namespace sg
+}  // namespace sg::world

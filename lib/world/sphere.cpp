@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -42,4 +42,4 @@ PoseGraph<SE3> sphere(const Sphere& world) {
           .seed = world.seed};
 }
 
-}  // namespace sg
+}  // namespace sg::world

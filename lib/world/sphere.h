@@ -4,7 +4,7 @@
 
 #include "lib/world/pose_graph.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Sphere {
   Index poses = 2500;
@@ -18,4 +18,4 @@ struct Sphere {
 
 PoseGraph<SE3> sphere(const Sphere& world);
 
-}  // namespace sg
+}  // namespace sg::world

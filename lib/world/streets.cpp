@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 constexpr std::array<std::int32_t, 4> east{1, 0, -1, 0}, north{0, 1, 0, -1};
@@ -59,4 +59,4 @@ std::vector<StreetPose> street_walk(const Streets& streets, Index poses, Random&
   return walk;
 }
 
-}  // namespace sg
+}  // namespace sg::world

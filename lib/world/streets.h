@@ -11,7 +11,7 @@
 #include "lib/graph/graph.h"
 #include "lib/world/random.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Streets {
   Index block = 5;  // metres between crossings
@@ -35,4 +35,4 @@ SE2 pose(const StreetPose& at);
 // city.
 std::vector<StreetPose> street_walk(const Streets& streets, Index poses, Random& random);
 
-}  // namespace sg
+}  // namespace sg::world

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -52,4 +52,4 @@ PoseGraph<SE3> torus(const Torus& world) {
           .seed = world.seed};
 }
 
-}  // namespace sg
+}  // namespace sg::world

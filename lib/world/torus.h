@@ -4,7 +4,7 @@
 
 #include "lib/world/pose_graph.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Torus {
   Index poses = 5000;
@@ -19,4 +19,4 @@ struct Torus {
 
 PoseGraph<SE3> torus(const Torus& world);
 
-}  // namespace sg
+}  // namespace sg::world

@@ -5,7 +5,7 @@
 
 #include "lib/text/error.h"
 
-namespace sg {
+namespace sg::world {
 namespace {
 
 std::vector<Eigen::Vector3d> landmarks_before(double length, const Worst& world) {
@@ -24,7 +24,7 @@ std::vector<Eigen::Vector3d> landmarks_before(double length, const Worst& world)
 LandmarkGraph worst(const Worst& world) {
   // Before anything of that size is made.
   if (world.landmarks > 0 && world.poses > std::numeric_limits<Index>::max() / world.landmarks)
-    throw computation_error("more observations than a graph can hold");
+    throw text::computation_error("more observations than a graph can hold");
   LandmarkGraph graph = begin_landmark_graph(world);
   const double line = world.step * (world.poses - 1);
   graph.landmarks = landmarks_before(std::max(10.0, line), world);
@@ -36,4 +36,4 @@ LandmarkGraph worst(const Worst& world) {
   return graph;
 }
 
-}  // namespace sg
+}  // namespace sg::world

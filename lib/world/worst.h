@@ -7,7 +7,7 @@
 
 #include "lib/world/landmark_graph.h"
 
-namespace sg {
+namespace sg::world {
 
 struct Worst {
   Index poses = 20;
@@ -23,4 +23,4 @@ struct Worst {
 
 LandmarkGraph worst(const Worst& world);
 
-}  // namespace sg
+}  // namespace sg::world

@@ -15,8 +15,8 @@ using namespace sg::test;
 namespace {
 
 using sg::Index;
-using sg::Order;
-using sg::Pattern;
+using sg::graph::Order;
+using sg::graph::Pattern;
 
 }  // namespace
 
@@ -26,26 +26,26 @@ TEST_CASE("what a region gains by reordering, the whole elimination gains", "[be
     const Index n = draw(random, 1, 40);
     const Pattern pattern = odd_pattern(random, n);
     const Order start =
-        trial % 2 == 0 ? shuffled(random, n) : sg::elimination_order("amd", pattern);
-    const sg::OrderedElimination before = sg::elimination(pattern, start);
-    REQUIRE(before.ec == sg::elimination_complexity(pattern, start));
-    REQUIRE(before.ec == sg::elimination_complexity(pattern, before.order));
+        trial % 2 == 0 ? shuffled(random, n) : sg::order::elimination_order("amd", pattern);
+    const sg::order::OrderedElimination before = sg::order::elimination(pattern, start);
+    REQUIRE(before.ec == sg::elim::elimination_complexity(pattern, start));
+    REQUIRE(before.ec == sg::elim::elimination_complexity(pattern, before.order));
 
     const Index root = draw(random, 0, n - 1);
     const Index size = draw(random, 1, n);
-    const sg::Region part = sg::region(before, root, size);
+    const sg::order::Region part = sg::order::region(before, root, size);
     const auto inside = static_cast<Index>(part.inside.size());
     REQUIRE(inside == std::min(size, root - before.first[root] + 1));
 
     Order local(part.pattern.variables());
     std::iota(local.begin(), local.end(), 0);
-    CHECK(sg::region_ec(part, local) == part.ec);
+    CHECK(sg::order::region_ec(part, local) == part.ec);
     for (Index k = inside; k > 1; --k) std::swap(local[k - 1], local[draw(random, 0, k - 1)]);
-    const std::vector<Index> subtree = sg::reordered_subtree(before, part, local);
+    const std::vector<Index> subtree = sg::order::reordered_subtree(before, part, local);
     Order after = before.order;
     std::copy(subtree.begin(), subtree.end(), after.begin() + before.first[root]);
-    REQUIRE(sg::elimination_complexity(pattern, after) + part.ec ==
-            before.ec + sg::region_ec(part, local));
+    REQUIRE(sg::elim::elimination_complexity(pattern, after) + part.ec ==
+            before.ec + sg::order::region_ec(part, local));
   }
 }
 
@@ -54,26 +54,28 @@ TEST_CASE("best is never above another method, and says what it found", "[best]"
   for (int trial = 0; trial < 40; ++trial) {
     const Index n = trial < 3 ? trial : draw(random, 0, 79);
     const Pattern pattern = odd_pattern(random, n);
-    sg::OrderOptions options;
+    sg::order::OrderOptions options;
     options.seed = static_cast<std::uint64_t>(trial);
     options.budget.tries = trial % 4 == 0 ? 0 : draw(random, 0, 99);
     if (trial % 3 == 0) {
       const Order some = shuffled(random, n);
       options.last.assign(some.begin(), some.begin() + n / 4);
     }
-    std::vector<sg::Wide> found;
-    options.report = [&](const sg::Improvement& improvement) { found.push_back(improvement.ec); };
-    const Order order = sg::elimination_order("best", pattern, options);
-    const sg::Wide ec = sg::elimination_complexity(pattern, order);
+    std::vector<sg::elim::Wide> found;
+    options.report = [&](const sg::order::Improvement& improvement) {
+      found.push_back(improvement.ec);
+    };
+    const Order order = sg::order::elimination_order("best", pattern, options);
+    const sg::elim::Wide ec = sg::elim::elimination_complexity(pattern, order);
     REQUIRE(!found.empty());
     CHECK(found.back() == ec);
     CHECK(std::is_sorted(found.rbegin(), found.rend()));
-    CHECK(sg::elimination_order("best", pattern, options) == order);
-    for (const sg::Ordering& method : sg::orderings()) {
+    CHECK(sg::order::elimination_order("best", pattern, options) == order);
+    for (const sg::order::Ordering& method : sg::order::orderings()) {
       INFO(method.name);
       if (method.name == "best") continue;
-      const Order other = sg::elimination_order(method, pattern, options);
-      CHECK(ec <= sg::elimination_complexity(pattern, other));
+      const Order other = sg::order::elimination_order(method, pattern, options);
+      CHECK(ec <= sg::elim::elimination_complexity(pattern, other));
     }
   }
 }
@@ -82,12 +84,13 @@ TEST_CASE("more tries are never worse, nor are seconds", "[best]") {
   Random random(3);
   const Pattern pattern = odd_pattern(random, 300);
   const auto ec = [&](int tries, double seconds) {
-    sg::OrderOptions options;
+    sg::order::OrderOptions options;
     options.budget = {tries, seconds};
-    return sg::elimination_complexity(pattern, sg::elimination_order("best", pattern, options));
+    return sg::elim::elimination_complexity(pattern,
+                                            sg::order::elimination_order("best", pattern, options));
   };
-  const sg::Wide none = ec(0, 0);
-  const sg::Wide few = ec(64, 0);
+  const sg::elim::Wide none = ec(0, 0);
+  const sg::elim::Wide few = ec(64, 0);
   CHECK(few <= none);
   CHECK(ec(320, 0) <= few);
   CHECK(ec(0, 0.2) <= none);
@@ -98,11 +101,12 @@ TEST_CASE("best improves on every method on public graphs", "[best][data]") {
   if (!folder) return;
   for (const char* file : {"smallGrid3D.g2o", "intel.g2o", "manhattan.g2o"}) {
     INFO(file);
-    const Pattern pattern = sg::graph_pattern(sg::read_graph(*folder + "/" + file)).pattern;
+    const Pattern pattern =
+        sg::graph::graph_pattern(sg::formats::read_graph(*folder + "/" + file)).pattern;
     std::string last;
-    sg::OrderOptions options;
-    options.report = [&](const sg::Improvement& improvement) { last = improvement.how; };
-    sg::elimination_order("best", pattern, options);
+    sg::order::OrderOptions options;
+    options.report = [&](const sg::order::Improvement& improvement) { last = improvement.how; };
+    sg::order::elimination_order("best", pattern, options);
     CHECK((last == "local" || last == "restart"));
   }
 }

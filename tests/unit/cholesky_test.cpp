@@ -53,16 +53,16 @@ long allocations_of(const auto& work) {
       const Limit limit(allowed);
       work();
       return allowed;
-    } catch (const Error& error) {
-      CHECK(error.fault == Fault::computation);
+    } catch (const text::Error& error) {
+      CHECK(error.fault == text::Fault::computation);
       CHECK(std::string(error.what()) == "CHOLMOD ran out of memory");
     }
   }
 }
 
 // 2 on the diagonal, -1 beside it.
-Triplets second_difference(int n) {
-  Triplets lower;
+sparse::Triplets second_difference(int n) {
+  sparse::Triplets lower;
   for (int i = 0; i < n; ++i) {
     lower.add(i, i, 1);
     lower.add(i, i, 1);  // entries of one place add up
@@ -79,16 +79,16 @@ TEST_CASE("a system is solved, and one without memory is an error at every step"
       constexpr int n = 9;
       std::vector<double> solution;
       const long needed = allocations_of([&] {
-        Cholmod session;
+        sparse::Cholmod session;
         session.common.supernodal = supernodal;
-        Triplets lower = second_difference(n);
-        const CholmodSparse matrix = sparse_matrix(n, lower, session);
-        const CholmodFactor factor = analyze(*matrix, ordering, session);
-        const bool definite = factorize(*matrix, *factor, session);
+        sparse::Triplets lower = second_difference(n);
+        const sparse::CholmodSparse matrix = sparse::sparse_matrix(n, lower, session);
+        const sparse::CholmodFactor factor = sparse::analyze(*matrix, ordering, session);
+        const bool definite = sparse::factorize(*matrix, *factor, session);
         CHECK(definite);
         std::vector<double> b(n, 0);
         b.back() = n + 1;
-        const CholmodDense x = solve(*factor, b, session);
+        const sparse::CholmodDense x = sparse::solve(*factor, b, session);
         const auto* numbers = static_cast<const double*>(x->x);
         solution.assign(numbers, numbers + n);
       });
@@ -99,21 +99,22 @@ TEST_CASE("a system is solved, and one without memory is an error at every step"
 }
 
 TEST_CASE("a matrix that is not positive definite is told from a failure", "[cholesky]") {
-  Cholmod session;
-  Triplets lower;
+  sparse::Cholmod session;
+  sparse::Triplets lower;
   lower.add(0, 0, 1);
   lower.add(1, 0, 2);
   lower.add(1, 1, 1);
-  const CholmodSparse matrix = sparse_matrix(2, lower, session);
+  const sparse::CholmodSparse matrix = sparse::sparse_matrix(2, lower, session);
   session.common.supernodal = CHOLMOD_SUPERNODAL;
-  const CholmodFactor factor = analyze(*matrix, CHOLMOD_NATURAL, session);
-  CHECK(!factorize(*matrix, *factor, session));
+  const sparse::CholmodFactor factor = sparse::analyze(*matrix, CHOLMOD_NATURAL, session);
+  CHECK(!sparse::factorize(*matrix, *factor, session));
 }
 
 TEST_CASE("spanning trees without memory are an error", "[cholesky]") {
-  const std::vector<TreeEdge> links{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const std::vector<trees::TreeEdge> links{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
   const std::vector<double> weight(links.size(), 1);
   double log_trees = 0;
-  CHECK(allocations_of([&] { log_trees = spanning_trees(4, links, weight).log_trees; }) > 10);
+  CHECK(allocations_of([&] { log_trees = trees::spanning_trees(4, links, weight).log_trees; }) >
+        10);
   CHECK(log_trees == Approx(std::log(4)));
 }

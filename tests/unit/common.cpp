@@ -19,20 +19,20 @@ double uniform(Random& random, double least, double limit) {
   return least + (limit - least) * boost::random::uniform_01<double>()(random);
 }
 
-Order shuffled(Random& random, Index n) {
-  Order order(n);
+graph::Order shuffled(Random& random, Index n) {
+  graph::Order order(n);
   std::iota(order.begin(), order.end(), 0);
   shuffle(random, order);
   return order;
 }
 
-Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows) {
-  Pattern pattern{std::move(dim), {}};
+graph::Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows) {
+  graph::Pattern pattern{std::move(dim), {}};
   for (const auto& row : rows) pattern.rows.add(row);
   return pattern;
 }
 
-Pattern odd_pattern(Random& random, Index n, int most_dim) {
+graph::Pattern odd_pattern(Random& random, Index n, int most_dim) {
   std::vector<int> dim(n);
   for (int& d : dim) d = draw(random, 1, most_dim);
   const bool wide = draw(random, 0, 3) == 0;
@@ -48,11 +48,11 @@ Pattern odd_pattern(Random& random, Index n, int most_dim) {
 }
 
 Graph graph_of(const std::string& text) {
-  return read_graph_text(text_of(text), "test.g2o");
+  return formats::read_graph_text(text::text_of(text), "test.g2o");
 }
 
 Graph test_graph(const std::string& name) {
-  return read_graph(SGTOOLS_TESTDATA "/" + name);
+  return formats::read_graph(SGTOOLS_TESTDATA "/" + name);
 }
 
 std::optional<std::string> public_graphs() {

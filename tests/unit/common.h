@@ -18,7 +18,7 @@ using Random = boost::random::mt19937;
 int draw(Random& random, int least, int most);  // in [least, most]
 // In [least, limit); least where both are equal.
 double uniform(Random& random, double least, double limit);
-Order shuffled(Random& random, Index n);
+graph::Order shuffled(Random& random, Index n);
 
 template <class T>
 void shuffle(Random& random, std::vector<T>& items) {
@@ -26,12 +26,12 @@ void shuffle(Random& random, std::vector<T>& items) {
     std::swap(items[k - 1], items[draw(random, 0, static_cast<int>(k) - 1)]);
 }
 
-Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows);
+graph::Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<Index>>& rows);
 
 // n variables of dimension 1 to `most_dim`, and all that a graph file can lead to: no rows, rows without variables (all
 // of them fixed), unary rows, rows of many variables (in one pattern of four), the same row twice, parts that nothing
 // connects.
-Pattern odd_pattern(Random& random, Index n, int most_dim = 6);
+graph::Pattern odd_pattern(Random& random, Index n, int most_dim = 6);
 
 Graph graph_of(const std::string& text);    // that calls itself test.g2o
 Graph test_graph(const std::string& name);  // of testdata

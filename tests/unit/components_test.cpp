@@ -51,16 +51,16 @@ TEST_CASE("components are what edges reach", "[components]") {
   Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
     const Graph graph = random_graph(random);
-    const Components parts = components(graph);
-    const std::vector<Index> size = sizes(parts);
+    const graph::Components parts = graph::components(graph);
+    const std::vector<Index> size = graph::sizes(parts);
     Index largest = 0;
     for (Index v = 0; v < graph.vertices(); ++v) {
       const std::vector<bool> reached = reachable(graph, v);
-      CHECK(component_of(graph, v).vertex == reached);
+      CHECK(graph::component_of(graph, v).vertex == reached);
       CHECK(size[parts.of[v]] == std::count(reached.begin(), reached.end(), true));
       largest = std::max(largest, size[parts.of[v]]);
     }
-    const Part part = largest_component(graph);
+    const graph::Part part = graph::largest_component(graph);
     CHECK(std::count(part.vertex.begin(), part.vertex.end(), true) == largest);
   }
 }
@@ -69,11 +69,12 @@ TEST_CASE("parts hold no edge without its vertices", "[components]") {
   Random random(6);
   for (int trial = 0; trial < 200; ++trial) {
     const Graph graph = random_graph(random);
-    const PoseIndex poses = pose_index(graph);
+    const graph::PoseIndex poses = graph::pose_index(graph);
     const auto last = static_cast<Index>(poses.pose.size()) - 1;
-    const Part parts[] = {first_steps(graph, poses, last, 2), pose_range(graph, poses, 1, last),
-                          of_ids(graph, {{0, 2}, {5, 9}})};
-    for (const Part& part : parts) {
+    const graph::Part parts[] = {graph::first_steps(graph, poses, last, 2),
+                                 graph::pose_range(graph, poses, 1, last),
+                                 graph::of_ids(graph, {{0, 2}, {5, 9}})};
+    for (const graph::Part& part : parts) {
       for (Index e = 0; e < graph.edges(); ++e) {
         for (Index v : graph.edge(e)) CHECK((!part.edge[e] || part.vertex[v]));
       }

@@ -20,7 +20,7 @@ using namespace sg::test;
 
 namespace {
 
-std::vector<std::vector<Index>> rows_of(const Pattern& pattern) {
+std::vector<std::vector<Index>> rows_of(const graph::Pattern& pattern) {
   std::vector<std::vector<Index>> rows;
   for (Index r = 0; r < pattern.rows.size(); ++r)
     rows.emplace_back(pattern.rows[r].begin(), pattern.rows[r].end());
@@ -28,12 +28,13 @@ std::vector<std::vector<Index>> rows_of(const Pattern& pattern) {
 }
 
 // Mostly small, and some larger.
-Pattern random_pattern(Random& random, int most_dim = 6) {
+graph::Pattern random_pattern(Random& random, int most_dim = 6) {
   return odd_pattern(random, draw(random, 0, draw(random, 0, 3) == 0 ? 80 : 9), most_dim);
 }
 
 // Every scalar a variable of its own.
-Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) {
+graph::Pattern expand(const graph::Pattern& pattern, const graph::Order& order,
+                      graph::Order& scalar_order) {
   std::vector<Index> first(pattern.variables() + 1, 0);
   std::partial_sum(pattern.dim.begin(), pattern.dim.end(), first.begin() + 1);
   std::vector<std::vector<Index>> rows;
@@ -56,7 +57,8 @@ Pattern expand(const Pattern& pattern, const Order& order, Order& scalar_order) 
 }
 
 // Node elimination with nothing but sets.
-std::vector<EliminationStep> set_elimination(const Pattern& pattern, const Order& order) {
+std::vector<elim::EliminationStep> set_elimination(const graph::Pattern& pattern,
+                                                   const graph::Order& order) {
   std::vector<std::set<Index>> adjacent(pattern.variables());
   for (Index r = 0; r < pattern.rows.size(); ++r) {
     for (Index i : pattern.rows[r]) {
@@ -68,9 +70,9 @@ std::vector<EliminationStep> set_elimination(const Pattern& pattern, const Order
   std::vector<Index> position(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<Index>(k);
   const auto before = [&](Index a, Index b) { return position[a] < position[b]; };
-  std::vector<EliminationStep> steps;
+  std::vector<elim::EliminationStep> steps;
   for (Index v : order) {
-    EliminationStep step{v, {adjacent[v].begin(), adjacent[v].end()}, {}};
+    elim::EliminationStep step{v, {adjacent[v].begin(), adjacent[v].end()}, {}};
     std::sort(step.neighbours.begin(), step.neighbours.end(), before);
     for (Index i : step.neighbours) {
       adjacent[i].erase(v);
@@ -84,7 +86,7 @@ std::vector<EliminationStep> set_elimination(const Pattern& pattern, const Order
   return steps;
 }
 
-std::int64_t dim_of(const Pattern& pattern, const auto& variables) {
+std::int64_t dim_of(const graph::Pattern& pattern, const auto& variables) {
   std::int64_t sum = 0;
   for (Index j : variables) sum += pattern.dim[j];
   return sum;
@@ -95,7 +97,7 @@ std::int64_t dim_of(const Pattern& pattern, const auto& variables) {
 struct Clique {
   std::vector<Index> frontal, separator, all;  // `all` ascending
 };
-std::vector<Clique> literal_bayes_tree(const std::vector<EliminationStep>& steps) {
+std::vector<Clique> literal_bayes_tree(const std::vector<elim::EliminationStep>& steps) {
   std::vector<Clique> cliques;
   std::vector<std::size_t> clique_of(steps.size());  // whose frontal variable it is
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
@@ -117,7 +119,7 @@ std::vector<Clique> literal_bayes_tree(const std::vector<EliminationStep>& steps
   return cliques;
 }
 
-Index literal_height(const std::vector<EliminationStep>& steps) {
+Index literal_height(const std::vector<elim::EliminationStep>& steps) {
   std::vector<Index> depth(steps.size(), 1);
   Index height = 0;
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
@@ -127,59 +129,61 @@ Index literal_height(const std::vector<EliminationStep>& steps) {
   return height;
 }
 
-struct LiteralScore : Score {
-  Wide fill = 0;
+struct LiteralScore : elim::Score {
+  elim::Wide fill = 0;
 };
 
-LiteralScore literal_score(const Pattern& pattern, const std::vector<EliminationStep>& steps) {
+LiteralScore literal_score(const graph::Pattern& pattern,
+                           const std::vector<elim::EliminationStep>& steps) {
   LiteralScore score;
   for (const auto& step : steps) {
     const std::int64_t own = pattern.dim[step.variable];
     const std::int64_t all = own + dim_of(pattern, step.neighbours);
-    score.ec += static_cast<Wide>(own * all * all);
+    score.ec += static_cast<elim::Wide>(own * all * all);
     score.max_clique = std::max(score.max_clique, all);
     for (const auto& [i, j] : step.fill)
-      score.fill += static_cast<Wide>(pattern.dim[i]) * static_cast<Wide>(pattern.dim[j]);
+      score.fill +=
+          static_cast<elim::Wide>(pattern.dim[i]) * static_cast<elim::Wide>(pattern.dim[j]);
     for (std::int64_t degree = all - 1; degree >= all - own; --degree) {  // its scalars, in turn
-      score.nnz += static_cast<Wide>(degree + 1);
-      score.flops += static_cast<Wide>((degree + 1) * (degree + 1));
-      score.rose += static_cast<Wide>(degree * (degree + 3) / 2);
+      score.nnz += static_cast<elim::Wide>(degree + 1);
+      score.flops += static_cast<elim::Wide>((degree + 1) * (degree + 1));
+      score.rose += static_cast<elim::Wide>(degree * (degree + 3) / 2);
     }
   }
   for (const auto& clique : literal_bayes_tree(steps)) {
     const std::int64_t own = dim_of(pattern, clique.frontal);
     const std::int64_t all = own + dim_of(pattern, clique.separator);
-    score.ec_bt += static_cast<Wide>(own * all * all);
+    score.ec_bt += static_cast<elim::Wide>(own * all * all);
     ++score.cliques;
   }
   score.height = literal_height(steps);
   return score;
 }
 
-void require_equal(const Score& fast, const Score& literal) {
-  REQUIRE(to_string(fast.ec) == to_string(literal.ec));
-  REQUIRE(to_string(fast.nnz) == to_string(literal.nnz));
-  REQUIRE(to_string(fast.ec_bt) == to_string(literal.ec_bt));
-  REQUIRE(to_string(fast.rose) == to_string(literal.rose));
-  REQUIRE(to_string(fast.flops) == to_string(literal.flops));
+void require_equal(const elim::Score& fast, const elim::Score& literal) {
+  REQUIRE(elim::to_string(fast.ec) == elim::to_string(literal.ec));
+  REQUIRE(elim::to_string(fast.nnz) == elim::to_string(literal.nnz));
+  REQUIRE(elim::to_string(fast.ec_bt) == elim::to_string(literal.ec_bt));
+  REQUIRE(elim::to_string(fast.rose) == elim::to_string(literal.rose));
+  REQUIRE(elim::to_string(fast.flops) == elim::to_string(literal.flops));
   REQUIRE(fast.max_clique == literal.max_clique);
   REQUIRE(fast.height == literal.height);
   REQUIRE(fast.cliques == literal.cliques);
 }
 
-void require_as_literal(const Pattern& pattern, const Order& order) {
-  const LiteralScore literal = literal_score(pattern, node_elimination(pattern, order));
-  const Score fast = score(symbolic(pattern, order));
+void require_as_literal(const graph::Pattern& pattern, const graph::Order& order) {
+  const LiteralScore literal = literal_score(pattern, elim::node_elimination(pattern, order));
+  const elim::Score fast = elim::score(elim::symbolic(pattern, order));
   require_equal(fast, literal);
-  REQUIRE(to_string(fast.nnz - system_nnz(pattern)) == to_string(literal.fill));
-  REQUIRE(elimination_complexity(pattern, order) == fast.ec);
+  REQUIRE(elim::to_string(fast.nnz - elim::system_nnz(pattern)) == elim::to_string(literal.fill));
+  REQUIRE(elim::elimination_complexity(pattern, order) == fast.ec);
 }
 
 // CHOLMOD's count for the expanded scalar pattern: {nonzeros of L, flops}.
-std::pair<double, double> cholmod_counts(const Pattern& pattern, const Order& order) {
-  Order scalar_order;
-  const Pattern scalar = expand(pattern, order, scalar_order);
-  const Adjacency graph = adjacency(scalar);
+std::pair<double, double> cholmod_counts(const graph::Pattern& pattern, const graph::Order& order) {
+  graph::Order scalar_order;
+  const graph::Pattern scalar = expand(pattern, order, scalar_order);
+  const graph::Adjacency graph = graph::adjacency(scalar);
   cholmod_common common;
   cholmod_start(&common);
   common.nmethods = 1;
@@ -213,11 +217,11 @@ std::pair<double, double> cholmod_counts(const Pattern& pattern, const Order& or
   return counts;
 }
 
-void require_as_cholmod(const Pattern& pattern, const Order& order) {
-  const Score fast = score(symbolic(pattern, order));
+void require_as_cholmod(const graph::Pattern& pattern, const graph::Order& order) {
+  const elim::Score fast = elim::score(elim::symbolic(pattern, order));
   const auto [nnz, flops] = cholmod_counts(pattern, order);
-  REQUIRE(to_double(fast.nnz) == nnz);
-  REQUIRE(to_double(fast.flops) == flops);
+  REQUIRE(elim::to_double(fast.nnz) == nnz);
+  REQUIRE(elim::to_double(fast.flops) == flops);
 }
 
 // The files of the public graphs, by ascending size.
@@ -235,8 +239,9 @@ std::vector<std::string> by_size(const std::string& folder) {
 
 TEST_CASE("node elimination of the paper's Figure 1", "[elim]") {
   // 0 - 1, 0 - 2, 1 - 3, 2 - 4, 3 - 4: eliminating 0 joins 1 and 2, then 1 joins 2 and 3.
-  const Pattern pattern = make_pattern({1, 1, 1, 1, 1}, {{0, 1}, {0, 2}, {1, 3}, {2, 4}, {3, 4}});
-  const auto steps = node_elimination(pattern, {0, 1, 2, 3, 4});
+  const graph::Pattern pattern =
+      make_pattern({1, 1, 1, 1, 1}, {{0, 1}, {0, 2}, {1, 3}, {2, 4}, {3, 4}});
+  const auto steps = elim::node_elimination(pattern, {0, 1, 2, 3, 4});
   using Pairs = std::vector<std::pair<Index, Index>>;
   REQUIRE(steps.size() == 5);
   CHECK(steps[0].neighbours == std::vector<Index>{1, 2});
@@ -248,26 +253,26 @@ TEST_CASE("node elimination of the paper's Figure 1", "[elim]") {
   CHECK(steps[3].neighbours == std::vector<Index>{4});
   CHECK(steps[4].neighbours.empty());
   // 3^2 three times, 2^2, 1; the cliques are {2, 3, 4}, {1 | 2, 3} and {0 | 1, 2}.
-  const Score counted = score(symbolic(pattern, {0, 1, 2, 3, 4}));
-  CHECK(to_string(counted.ec) == "32");
+  const elim::Score counted = elim::score(elim::symbolic(pattern, {0, 1, 2, 3, 4}));
+  CHECK(elim::to_string(counted.ec) == "32");
   CHECK(counted.cliques == 3);
-  CHECK(to_string(counted.ec_bt) == "45");
+  CHECK(elim::to_string(counted.ec_bt) == "45");
 }
 
 TEST_CASE("an order that is no permutation is refused", "[elim]") {
-  const Pattern pattern = make_pattern({1, 1}, {{0, 1}});
-  CHECK_THROWS_AS(symbolic(pattern, {0}), std::invalid_argument);
-  CHECK_THROWS_AS(symbolic(pattern, {0, 0}), std::invalid_argument);
-  CHECK_THROWS_AS(symbolic(pattern, {0, 2}), std::invalid_argument);
-  CHECK_THROWS_AS(symbolic(pattern, {-1, 0}), std::invalid_argument);
+  const graph::Pattern pattern = make_pattern({1, 1}, {{0, 1}});
+  CHECK_THROWS_AS(elim::symbolic(pattern, {0}), std::invalid_argument);
+  CHECK_THROWS_AS(elim::symbolic(pattern, {0, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(elim::symbolic(pattern, {0, 2}), std::invalid_argument);
+  CHECK_THROWS_AS(elim::symbolic(pattern, {-1, 0}), std::invalid_argument);
 }
 
 TEST_CASE("node elimination is that of sets of neighbours", "[elim]") {
   Random random(1);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Pattern pattern = random_pattern(random);
-    const Order order = shuffled(random, pattern.variables());
-    const auto steps = node_elimination(pattern, order);
+    const graph::Pattern pattern = random_pattern(random);
+    const graph::Order order = shuffled(random, pattern.variables());
+    const auto steps = elim::node_elimination(pattern, order);
     const auto by_sets = set_elimination(pattern, order);
     REQUIRE(steps.size() == by_sets.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -281,7 +286,7 @@ TEST_CASE("node elimination is that of sets of neighbours", "[elim]") {
 TEST_CASE("scores equal literal node elimination on odd random graphs", "[elim]") {
   Random random(2);
   for (int trial = 0; trial < 5000; ++trial) {
-    const Pattern pattern = random_pattern(random);
+    const graph::Pattern pattern = random_pattern(random);
     require_as_literal(pattern, shuffled(random, pattern.variables()));
   }
 }
@@ -289,16 +294,17 @@ TEST_CASE("scores equal literal node elimination on odd random graphs", "[elim]"
 TEST_CASE("scores equal literal elimination of the expanded scalar graph", "[elim]") {
   Random random(3);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern(random);
-    const Order order = shuffled(random, pattern.variables());
-    Order scalar_order;
-    const Pattern scalar = expand(pattern, order, scalar_order);
-    const LiteralScore literal = literal_score(scalar, node_elimination(scalar, scalar_order));
-    const Score fast = score(symbolic(pattern, order));
+    const graph::Pattern pattern = random_pattern(random);
+    const graph::Order order = shuffled(random, pattern.variables());
+    graph::Order scalar_order;
+    const graph::Pattern scalar = expand(pattern, order, scalar_order);
+    const LiteralScore literal =
+        literal_score(scalar, elim::node_elimination(scalar, scalar_order));
+    const elim::Score fast = elim::score(elim::symbolic(pattern, order));
     REQUIRE(fast.nnz == literal.nnz);
     REQUIRE(fast.rose == literal.rose);
     REQUIRE(fast.flops == literal.flops);
-    REQUIRE(fast.nnz - system_nnz(pattern) == literal.fill);
+    REQUIRE(fast.nnz - elim::system_nnz(pattern) == literal.fill);
     REQUIRE(fast.max_clique == literal.max_clique);
   }
 }
@@ -306,7 +312,7 @@ TEST_CASE("scores equal literal elimination of the expanded scalar graph", "[eli
 TEST_CASE("nnz and flops are CHOLMOD's", "[elim]") {
   Random random(4);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern(random);
+    const graph::Pattern pattern = random_pattern(random);
     if (pattern.variables() > 0) require_as_cholmod(pattern, shuffled(random, pattern.variables()));
   }
 }
@@ -314,14 +320,15 @@ TEST_CASE("nnz and flops are CHOLMOD's", "[elim]") {
 TEST_CASE("adding an edge never lowers EC (Lemma 1)", "[elim]") {
   Random random(5);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Pattern pattern = random_pattern(random);
-    const Order order = shuffled(random, pattern.variables());
+    const graph::Pattern pattern = random_pattern(random);
+    const graph::Order order = shuffled(random, pattern.variables());
     auto rows = rows_of(pattern);
     std::vector<Index> added = shuffled(random, pattern.variables());
     added.resize(std::min<Index>(pattern.variables(), draw(random, 1, 4)));
     rows.insert(rows.begin() + draw(random, 0, static_cast<int>(rows.size())), added);
-    const Pattern larger = make_pattern(pattern.dim, rows);
-    REQUIRE(elimination_complexity(pattern, order) <= elimination_complexity(larger, order));
+    const graph::Pattern larger = make_pattern(pattern.dim, rows);
+    REQUIRE(elim::elimination_complexity(pattern, order) <=
+            elim::elimination_complexity(larger, order));
   }
 }
 
@@ -330,26 +337,27 @@ TEST_CASE("with scalar variables EC is the asymptotic Rose sum", "[elim]") {
   // Rose: 1/2 sum d (d + 3) ~ 1/2 sum d^2; the paper drops the half. EC counts the column's own
   // entry too: sum (d + 1)^2 = 2 Rose - sum d + n, and sum d = nnz - n.
   for (int trial = 0; trial < 1000; ++trial) {
-    const Pattern pattern = random_pattern(random, 1);
-    const Order order = shuffled(random, pattern.variables());
-    const Score counted = score(symbolic(pattern, order));
-    Wide squares = 0;
-    for (const auto& step : node_elimination(pattern, order)) {
-      const Wide entries = step.neighbours.size() + 1;
+    const graph::Pattern pattern = random_pattern(random, 1);
+    const graph::Order order = shuffled(random, pattern.variables());
+    const elim::Score counted = elim::score(elim::symbolic(pattern, order));
+    elim::Wide squares = 0;
+    for (const auto& step : elim::node_elimination(pattern, order)) {
+      const elim::Wide entries = step.neighbours.size() + 1;
       squares += entries * entries;
     }
     REQUIRE(counted.ec == squares);
     REQUIRE(counted.ec == counted.flops);
     REQUIRE(counted.ec + counted.nnz ==
-            2 * counted.rose + 2 * static_cast<Wide>(pattern.variables()));
+            2 * counted.rose + 2 * static_cast<elim::Wide>(pattern.variables()));
   }
 }
 
 TEST_CASE("the Bayes tree costs no less than node by node", "[elim]") {
   Random random(7);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Pattern pattern = random_pattern(random);
-    const Score counted = score(symbolic(pattern, shuffled(random, pattern.variables())));
+    const graph::Pattern pattern = random_pattern(random);
+    const elim::Score counted =
+        elim::score(elim::symbolic(pattern, shuffled(random, pattern.variables())));
     REQUIRE(counted.ec_bt >= counted.ec);
   }
 }
@@ -357,9 +365,10 @@ TEST_CASE("the Bayes tree costs no less than node by node", "[elim]") {
 TEST_CASE("the Bayes tree is a tree over all variables, parents first", "[elim]") {
   Random random(8);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern(random);
-    const Symbolic elimination = symbolic(pattern, shuffled(random, pattern.variables()));
-    const BayesTree tree = bayes_tree(elimination);
+    const graph::Pattern pattern = random_pattern(random);
+    const elim::Symbolic elimination =
+        elim::symbolic(pattern, shuffled(random, pattern.variables()));
+    const elim::BayesTree tree = elim::bayes_tree(elimination);
     std::vector<std::int64_t> frontal(tree.cliques(), 0);
     for (Index k = 0; k < pattern.variables(); ++k) {
       frontal[tree.clique[k]] += elimination.dim[k];
@@ -375,9 +384,10 @@ TEST_CASE("the Bayes tree is a tree over all variables, parents first", "[elim]"
 TEST_CASE("postorder and height are those of the tree", "[elim]") {
   Random random(9);
   for (int trial = 0; trial < 500; ++trial) {
-    const Pattern pattern = random_pattern(random);
-    const Symbolic elimination = symbolic(pattern, shuffled(random, pattern.variables()));
-    const std::vector<Index> post = postorder(elimination.parent);
+    const graph::Pattern pattern = random_pattern(random);
+    const elim::Symbolic elimination =
+        elim::symbolic(pattern, shuffled(random, pattern.variables()));
+    const std::vector<Index> post = elim::postorder(elimination.parent);
     std::vector<Index> rank(post.size(), -1);
     for (std::size_t k = 0; k < post.size(); ++k) rank[post[k]] = static_cast<Index>(k);
     std::vector<Index> size(post.size(), 1);  // of every subtree: it ends with its root
@@ -398,10 +408,10 @@ TEST_CASE("postorder and height are those of the tree", "[elim]") {
 }
 
 TEST_CASE("wide numbers print in full", "[elim]") {
-  CHECK(to_string(Wide{0}) == "0");
-  CHECK(to_string(Wide{1000000007}) == "1000000007");
-  CHECK(to_string(~Wide{0}) == "340282366920938463463374607431768211455");
-  CHECK(to_string(elimination_cost(3, 3'000'000'000)) == "27000000000000000000");
+  CHECK(elim::to_string(elim::Wide{0}) == "0");
+  CHECK(elim::to_string(elim::Wide{1000000007}) == "1000000007");
+  CHECK(elim::to_string(~elim::Wide{0}) == "340282366920938463463374607431768211455");
+  CHECK(elim::to_string(elim::elimination_cost(3, 3'000'000'000)) == "27000000000000000000");
 }
 
 TEST_CASE("public graphs: scores equal literal node elimination under every ordering",
@@ -409,13 +419,13 @@ TEST_CASE("public graphs: scores equal literal node elimination under every orde
   const auto folder = public_graphs();
   if (!folder) return;
   for (const auto& file : by_size(*folder)) {
-    const Graph graph = read_graph(file);
-    const GraphPattern variables = graph_pattern(graph);
-    const OrderOptions options = order_options(graph, variables);
-    std::set<Order> done;  // several methods may give one order
-    for (const Ordering& ordering : orderings()) {
+    const Graph graph = formats::read_graph(file);
+    const graph::GraphPattern variables = graph::graph_pattern(graph);
+    const order::OrderOptions options = order::order_options(graph, variables);
+    std::set<graph::Order> done;  // several methods may give one order
+    for (const order::Ordering& ordering : order::orderings()) {
       CAPTURE(file, ordering.name);
-      const Order order = elimination_order(ordering, variables.pattern, options);
+      const graph::Order order = order::elimination_order(ordering, variables.pattern, options);
       if (done.insert(order).second) require_as_literal(variables.pattern, order);
     }
   }
@@ -426,7 +436,7 @@ TEST_CASE("public graphs: nnz and flops are CHOLMOD's under COLAMD", "[elim][pub
   if (!folder) return;
   for (const auto& file : by_size(*folder)) {
     CAPTURE(file);
-    const GraphPattern variables = graph_pattern(read_graph(file));
-    require_as_cholmod(variables.pattern, elimination_order("colamd", variables.pattern));
+    const graph::GraphPattern variables = graph::graph_pattern(formats::read_graph(file));
+    require_as_cholmod(variables.pattern, order::elimination_order("colamd", variables.pattern));
   }
 }

@@ -16,8 +16,8 @@ using namespace sg::test;
 namespace {
 
 struct System {
-  sg::Pattern pattern;
-  sg::LinearSystem linear;
+  sg::graph::Pattern pattern;
+  sg::factor::LinearSystem linear;
 };
 
 void add_row(System& system, int height, const std::vector<sg::Index>& variables, Random& random) {
@@ -87,12 +87,12 @@ Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& step) {
 // A front with a positive definite matrix, and that matrix in full.
 struct DenseFront {
   std::vector<double> l, u;
-  sg::Front front;
+  sg::solve::Front front;
   Eigen::MatrixXd full;
 
   DenseFront(Random& random, int f, int s) : front{nullptr, nullptr, f, f + s + 1} {
-    l.assign(front.size_l() + sg::lane, 0);
-    u.assign(front.size_u() + sg::lane, 0);
+    l.assign(front.size_l() + sg::solve::lane, 0);
+    u.assign(front.size_u() + sg::solve::lane, 0);
     front.l = l.data();
     front.u = u.data();
     const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(
@@ -109,7 +109,7 @@ struct DenseFront {
 
 TEST_CASE("kernels of every instruction set do dense partial Cholesky", "[eliminate]") {
   Random random(1);
-  for (const sg::Kernels* kernel : sg::all_kernels()) {
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
     INFO(kernel->name);
     for (int f = 1; f < 30; f += 1 + f / 8) {
       for (int s = 0; s < 60; s += 1 + s / 3) {
@@ -118,7 +118,7 @@ TEST_CASE("kernels of every instruction set do dense partial Cholesky", "[elimin
         std::fill(dense.l.begin(), dense.l.end(), 7.0);
         std::fill(dense.u.begin(), dense.u.end(), 7.0);
         kernel->clear(dense.front);
-        const sg::Run all[] = {{0, 0, n / 2}, {n / 2, n / 2, n - n / 2}};
+        const sg::solve::Run all[] = {{0, 0, n / 2}, {n / 2, n / 2, n - n / 2}};
         kernel->add(dense.front, dense.full.data(), n, all, 2);
         const std::vector<double> floor(f, 1e-9);
         REQUIRE(kernel->factorize(dense.front, floor.data()) == 0);
@@ -144,14 +144,14 @@ TEST_CASE("kernels of every instruction set do dense partial Cholesky", "[elimin
 
 TEST_CASE("kernels: Gram matrix and scattered sum, in either order", "[eliminate]") {
   Random random(2);
-  for (const sg::Kernels* kernel : sg::all_kernels()) {
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
     INFO(kernel->name);
     for (int height = 1; height < 9; ++height) {
       for (int width = 3; width < 25; ++width) {
         const Eigen::MatrixXd block = Eigen::MatrixXd::NullaryExpr(
             height, width, [&](Eigen::Index, Eigen::Index) { return uniform(random, -1, 1); });
-        std::vector<double> gram(width * width + sg::lane);
-        std::vector<double> work(height * (width + sg::lane));
+        std::vector<double> gram(width * width + sg::solve::lane);
+        std::vector<double> work(height * (width + sg::solve::lane));
         kernel->gram(block.data(), height, width, gram.data(), work.data());
         const Eigen::MatrixXd expected = block.transpose() * block;
         CHECK((Eigen::Map<Eigen::MatrixXd>(gram.data(), width, width) - expected).norm() < 1e-12);
@@ -159,10 +159,10 @@ TEST_CASE("kernels: Gram matrix and scattered sum, in either order", "[eliminate
         DenseFront dense(random, 4, width + 3);
         kernel->clear(dense.front);
         const int last = dense.front.n - 1;
-        const sg::Run runs[] = {{1, 2, width - 2}, {0, width + 1, 1}, {width - 1, last, 1}};
+        const sg::solve::Run runs[] = {{1, 2, width - 2}, {0, width + 1, 1}, {width - 1, last, 1}};
         kernel->add(dense.front, gram.data(), width, runs, 3);
-        for (const sg::Run& a : runs) {
-          for (const sg::Run& b : runs) {
+        for (const sg::solve::Run& a : runs) {
+          for (const sg::solve::Run& b : runs) {
             for (int i = 0; i < a.length; ++i) {
               for (int j = 0; j < b.length; ++j) {
                 if (a.to + i < b.to + j) continue;
@@ -193,15 +193,15 @@ TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate
     const Eigen::VectorXd expected = solver.solve(full.a.transpose() * full.b);
 
     const int threads = 1 + trial % 3;
-    auto elimination = sg::plan_elimination(system.linear, shuffled(random, n), threads);
+    auto elimination = sg::solve::plan_elimination(system.linear, shuffled(random, n), threads);
     std::vector<double> step;
     for (int again = 0; again < 2; ++again) {
-      REQUIRE(sg::eliminate(elimination, system.linear, damping).empty());
-      sg::back_substitute(elimination, step);
+      REQUIRE(sg::solve::eliminate(elimination, system.linear, damping).empty());
+      sg::solve::back_substitute(elimination, step);
       const double tolerance = 1e-12 / std::max(solver.rcond(), 1e-11);
       CHECK((as_vector(step) - expected).norm() <= tolerance * (1 + expected.norm()));
       const double log_determinant = solver.vectorD().array().log().sum();
-      CHECK(sg::log_determinant(elimination) == Approx(log_determinant).margin(1e-6));
+      CHECK(sg::solve::log_determinant(elimination) == Approx(log_determinant).margin(1e-6));
     }
   }
 }
@@ -213,10 +213,10 @@ TEST_CASE("undetermined variables are named, the others solved", "[eliminate]") 
     const sg::Index loose = draw(random, 0, n - 1);
     System system = random_system(random, n, 2 * n, {loose});
     system.linear.pattern = &system.pattern;
-    auto elimination = sg::plan_elimination(system.linear, shuffled(random, n));
-    CHECK(sg::eliminate(elimination, system.linear) == std::vector<sg::Index>{loose});
+    auto elimination = sg::solve::plan_elimination(system.linear, shuffled(random, n));
+    CHECK(sg::solve::eliminate(elimination, system.linear) == std::vector<sg::Index>{loose});
     std::vector<double> step;
-    sg::back_substitute(elimination, step);
+    sg::solve::back_substitute(elimination, step);
     const Dense full = dense(system);
     const Eigen::VectorXd gradient = full.a.transpose() * (full.a * as_vector(step) - full.b);
     CHECK(gradient.norm() < 1e-6);
@@ -235,12 +235,12 @@ TEST_CASE("a chain that nothing anchors misses as many variables as it is free",
     std::copy_n(numbers, 10, block);
   }
   system.linear.pattern = &system.pattern;
-  auto elimination = sg::plan_elimination(system.linear, shuffled(random, n));
-  CHECK(sg::eliminate(elimination, system.linear).size() == 1);
+  auto elimination = sg::solve::plan_elimination(system.linear, shuffled(random, n));
+  CHECK(sg::solve::eliminate(elimination, system.linear).size() == 1);
   add_row(system, 2, {n / 2}, random);
   system.linear.pattern = &system.pattern;
-  elimination = sg::plan_elimination(system.linear, shuffled(random, n));
-  CHECK(sg::eliminate(elimination, system.linear).empty());
+  elimination = sg::solve::plan_elimination(system.linear, shuffled(random, n));
+  CHECK(sg::solve::eliminate(elimination, system.linear).empty());
 }
 
 TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT", "[eliminate]") {
@@ -248,11 +248,11 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
   for (int trial = 0; trial < 100; ++trial) {
     const int n = draw(random, 1, 50);
     const System system = random_system(random, n, draw(random, 0, 3 * n));
-    const sg::Order order = shuffled(random, n);
-    const sg::Score score = sg::score(sg::symbolic(system.pattern, order));
+    const sg::graph::Order order = shuffled(random, n);
+    const sg::elim::Score score = sg::elim::score(sg::elim::symbolic(system.pattern, order));
     for (const bool relaxed : {false, true}) {
-      const sg::CliqueTree tree = sg::clique_tree(system.pattern, order, relaxed);
-      sg::Wide ec_bt = 0;
+      const sg::solve::CliqueTree tree = sg::solve::clique_tree(system.pattern, order, relaxed);
+      sg::elim::Wide ec_bt = 0;
       for (std::int64_t ec : tree.ec) ec_bt += ec;
       CHECK(ec_bt == score.ec_bt);
       CHECK(tree.cliques() <= score.cliques);
@@ -269,7 +269,7 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
         }
       }
       // Renumbered, the elimination costs the same.
-      CHECK(sg::elimination_complexity(system.pattern, tree.frontals.items) == score.ec);
+      CHECK(sg::elim::elimination_complexity(system.pattern, tree.frontals.items) == score.ec);
     }
   }
 }
@@ -280,15 +280,15 @@ TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
   for (const char* name : {"tinyGrid3D.g2o", "smallGrid3D.g2o", "intel.g2o", "sphere2500.g2o",
                            "victoriaPark.isam.txt"}) {
     INFO(name);
-    const sg::Graph graph = sg::read_graph(*folder + "/" + name);
-    const sg::Problem problem = sg::make_problem(graph);
-    sg::LinearSystem system = sg::make_linear_system(problem);
-    sg::linearize(problem, sg::start_values(problem), {}, system);
-    const sg::Order order = sg::elimination_order("colamd", *system.pattern);
-    auto elimination = sg::plan_elimination(system, order);
+    const sg::Graph graph = sg::formats::read_graph(*folder + "/" + name);
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    sg::factor::LinearSystem system = sg::factor::make_linear_system(problem);
+    sg::factor::linearize(problem, sg::factor::start_values(problem), {}, system);
+    const sg::graph::Order order = sg::order::elimination_order("colamd", *system.pattern);
+    auto elimination = sg::solve::plan_elimination(system, order);
     std::vector<double> step, gradient, threaded;
-    REQUIRE(sg::eliminate(elimination, system).empty());
-    sg::back_substitute(elimination, step);
+    REQUIRE(sg::solve::eliminate(elimination, system).empty());
+    sg::solve::back_substitute(elimination, step);
     gradient.assign(step.size(), 0);
     double scale = 0;
     for (sg::Index r = 0; r < system.pattern->rows.size(); ++r) {
@@ -313,9 +313,9 @@ TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
     }
     CHECK(as_vector(gradient).lpNorm<Eigen::Infinity>() < 1e-8 * (1 + scale));
 
-    auto parallel = sg::plan_elimination(system, order, 2);
-    REQUIRE(sg::eliminate(parallel, system).empty());
-    sg::back_substitute(parallel, threaded);
+    auto parallel = sg::solve::plan_elimination(system, order, 2);
+    REQUIRE(sg::solve::eliminate(parallel, system).empty());
+    sg::solve::back_substitute(parallel, threaded);
     CHECK(threaded == step);
   }
 }

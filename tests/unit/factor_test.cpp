@@ -16,32 +16,32 @@ namespace {
 
 // A random estimate; a pose far enough from landmarks at `ahead` that they are in front of its
 // camera.
-std::vector<double> random_estimate(Random& random, Space space) {
-  std::vector<double> x(space_size(space));
-  set_origin(space, x.data());
-  std::vector<double> step(space_dim(space));
+std::vector<double> random_estimate(Random& random, graph::Space space) {
+  std::vector<double> x(graph::space_size(space));
+  factor::set_origin(space, x.data());
+  std::vector<double> step(graph::space_dim(space));
   for (double& number : step) number = uniform(random, -0.6, 0.6);
-  retract(space, step.data(), x.data());
-  if (space == Space::xyz) x[2] += 5;
+  factor::retract(space, step.data(), x.data());
+  if (space == graph::Space::xyz) x[2] += 5;
   return x;
 }
 
 struct Instance {
-  const Model& model;
+  const factor::Model& model;
   std::vector<std::vector<double>> x;
   std::vector<double> constants;
   std::vector<double> U;
   bool diagonal = false;
 
-  std::array<const double*, max_ends> ends() const {
-    std::array<const double*, max_ends> pointers{};
+  std::array<const double*, factor::max_ends> ends() const {
+    std::array<const double*, factor::max_ends> pointers{};
     for (std::size_t k = 0; k < x.size(); ++k) pointers[k] = x[k].data();
     return pointers;
   }
 };
 
 // A random measurement, camera and offset near to what random estimates would see.
-Instance random_instance(Random& random, const Model& model) {
+Instance random_instance(Random& random, const factor::Model& model) {
   Instance instance{model, {}, std::vector<double>(model.constants), {}};
   for (int k = 0; k < model.arity; ++k)
     instance.x.push_back(random_estimate(random, model.ends[k]));
@@ -50,8 +50,8 @@ Instance random_instance(Random& random, const Model& model) {
   if (model.measurement == 7) Eigen::Map<Eigen::Vector4d>(z.data() + 3).normalize();
   std::vector<std::vector<double>> params;
   std::vector<const double*> pointers;
-  for (ParamTag type : model.params) {
-    std::vector<double> param(row(type).numbers);
+  for (graph::ParamTag type : model.params) {
+    std::vector<double> param(graph::row(type).numbers);
     for (double& number : param) number = uniform(random, 0.1, 0.9);
     if (param.size() >= 7) {  // turned so little that landmarks stay ahead
       Eigen::Map<Eigen::Vector3d>(param.data() + 3) *= 0.2;
@@ -77,21 +77,21 @@ Eigen::VectorXd error(const Instance& instance) {
 }
 
 Eigen::VectorXd error_after(Instance instance, int end, int axis, double length) {
-  std::vector<double> step(space_dim(instance.model.ends[end]), 0.0);
+  std::vector<double> step(graph::space_dim(instance.model.ends[end]), 0.0);
   step[axis] = length;
-  retract(instance.model.ends[end], step.data(), instance.x[end].data());
+  factor::retract(instance.model.ends[end], step.data(), instance.x[end].data());
   return error(instance);
 }
 
 void check_jacobian(const Instance& instance) {
-  const Model& model = instance.model;
-  std::vector<double> block(max_block);
+  const factor::Model& model = instance.model;
+  std::vector<double> block(factor::max_block);
   model.linearize(instance.ends().data(), instance.constants.data(),
                   {instance.U.data(), instance.diagonal}, block.data());
-  Eigen::Map<Eigen::MatrixXd> columns(block.data(), model.dim, max_block / model.dim);
+  Eigen::Map<Eigen::MatrixXd> columns(block.data(), model.dim, factor::max_block / model.dim);
   int column = 0;
   for (int end = 0; end < model.arity; ++end) {
-    for (int axis = 0; axis < space_dim(model.ends[end]); ++axis, ++column) {
+    for (int axis = 0; axis < graph::space_dim(model.ends[end]); ++axis, ++column) {
       const auto slope = [&](double h) -> Eigen::VectorXd {
         return (error_after(instance, end, axis, h) - error_after(instance, end, axis, -h)) /
                (2 * h);
@@ -110,7 +110,7 @@ void check_jacobian(const Instance& instance) {
 
 TEST_CASE("every model's Jacobian is its numerical one", "[factor]") {
   Random random(1);
-  for (const Model& model : models()) {
+  for (const factor::Model& model : factor::models()) {
     for (int trial = 0; trial < 20; ++trial) check_jacobian(random_instance(random, model));
   }
 }
@@ -120,17 +120,17 @@ namespace {
 std::string message_of(const std::string& text) {
   const Graph graph = graph_of(text);
   try {
-    const Problem problem = make_problem(graph);
-    start_values(problem);
-  } catch (const Error& error) {
-    return message(error);
+    const factor::Problem problem = factor::make_problem(graph);
+    factor::start_values(problem);
+  } catch (const text::Error& error) {
+    return text::message(error);
   }
   return "";
 }
 
 // The system as one dense matrix [A b], columns by variable.
-Eigen::MatrixXd dense(const Problem& problem, const LinearSystem& system) {
-  const Pattern& pattern = *system.pattern;
+Eigen::MatrixXd dense(const factor::Problem& problem, const factor::LinearSystem& system) {
+  const graph::Pattern& pattern = *system.pattern;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(0, problem.step_at.back() + 1);
   for (Index r = 0; r < pattern.rows.size(); ++r) {
     const auto top = all.rows();
@@ -149,14 +149,14 @@ Eigen::MatrixXd dense(const Problem& problem, const LinearSystem& system) {
 }
 
 // The same by moving every scalar of the estimate a little. Rows of the edges alone.
-Eigen::MatrixXd numerical(const Problem& problem, const Values& values) {
-  const auto errors = [&](const Values& x) {
+Eigen::MatrixXd numerical(const factor::Problem& problem, const factor::Values& values) {
+  const auto errors = [&](const factor::Values& x) {
     std::vector<double> all;
     for (Index e = 0; e < problem.graph->edges(); ++e) {
-      double r[max_dim];
-      const Model& model = *problem.model[e];
-      model.error(ends_of(problem, x, e).data(), constants_of(problem, e), whitening_of(problem, e),
-                  r);
+      double r[factor::max_dim];
+      const factor::Model& model = *problem.model[e];
+      model.error(factor::ends_of(problem, x, e).data(), factor::constants_of(problem, e),
+                  factor::whitening_of(problem, e), r);
       all.insert(all.end(), r, r + model.dim);
     }
     return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Index>(all.size())));
@@ -168,8 +168,8 @@ Eigen::MatrixXd numerical(const Problem& problem, const Values& values) {
     const auto moved = [&](double h) {
       std::vector<double> step(scalars, 0.0);
       step[k] = h;
-      Values x = values;
-      retract(problem, step, x);
+      factor::Values x = values;
+      factor::retract(problem, step, x);
       return errors(x);
     };
     all.col(k) = (moved(1e-6) - moved(-1e-6)) / 2e-6;
@@ -184,17 +184,17 @@ Eigen::MatrixXd numerical(const Problem& problem, const Values& values) {
 }
 
 void check_system(const Graph& graph) {
-  const Problem problem = make_problem(graph);
-  const Values values = start_values(problem);
-  LinearSystem system = make_linear_system(problem);
-  linearize(problem, values, {}, system);
+  const factor::Problem problem = factor::make_problem(graph);
+  const factor::Values values = factor::start_values(problem);
+  factor::LinearSystem system = factor::make_linear_system(problem);
+  factor::linearize(problem, values, {}, system);
   const Eigen::MatrixXd expected = numerical(problem, values);
   const Eigen::MatrixXd given = dense(problem, system).topRows(expected.rows());
   for (Index r = 0; r < expected.rows(); ++r) {
     INFO("row " << r);
     CHECK((given.row(r) - expected.row(r)).norm() < 1e-6 * (1 + expected.row(r).norm()));
   }
-  CHECK(chi2(problem, values) == Approx(given.rightCols(1).squaredNorm()).epsilon(1e-12));
+  CHECK(factor::chi2(problem, values) == Approx(given.rightCols(1).squaredNorm()).epsilon(1e-12));
 }
 
 }  // namespace
@@ -203,8 +203,8 @@ void check_system(const Graph& graph) {
 TEST_CASE("chi-square is g2o's", "[factor]") {
   const auto chi2_of = [](const std::string& name) {
     const Graph graph = test_graph(name);
-    const Problem problem = make_problem(graph);
-    return chi2(problem, start_values(problem));
+    const factor::Problem problem = factor::make_problem(graph);
+    return factor::chi2(problem, factor::start_values(problem));
   };
   CHECK(chi2_of("types-se2.g2o") == Approx(128.371198).margin(6e-7));
   CHECK(chi2_of("types-se3.g2o") == Approx(600.010429).margin(6e-7));
@@ -216,7 +216,7 @@ TEST_CASE("the files of every type hold every type", "[factor]") {
   for (const char* name : {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o"}) {
     text += std::string(test_graph(name).text.view);
   }
-  for (const Model& model : models()) {
+  for (const factor::Model& model : factor::models()) {
     INFO(model.tag);
     CHECK(text.find("\n" + std::string(model.tag) + " ") != text.npos);
   }
@@ -247,7 +247,7 @@ TEST_CASE("the first pose is held unless something else holds the graph", "[fact
       "EDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 2 1 0 0 1 0 1\n";
   const auto held = [](const std::string& text) {
     const Graph graph = graph_of(text);
-    return make_problem(graph).held;
+    return factor::make_problem(graph).held;
   };
   CHECK(held(two) == 1);
   CHECK(held(two + "FIX 3\n") == -1);
@@ -266,7 +266,7 @@ TEST_CASE("the first pose is held unless something else holds the graph", "[fact
 TEST_CASE("rank decides whether priors hold the graph", "[factor]") {
   const auto held = [](const std::string& text) {
     const Graph graph = graph_of(text);
-    return make_problem(graph).held;
+    return factor::make_problem(graph).held;
   };
   for (const char* const at : {"0 0", "412345.1 5432100.2"}) {
     std::istringstream place(at);
@@ -316,15 +316,15 @@ TEST_CASE("rank decides whether priors hold the graph", "[factor]") {
 TEST_CASE("composed estimates stand where the gauge is held", "[factor]") {
   const auto chi2_of = [](const std::string& text) {
     const Graph graph = graph_of(text);
-    const Problem problem = make_problem(graph);
-    const Values composed = initial_values(problem);
+    const factor::Problem problem = factor::make_problem(graph);
+    const factor::Values composed = factor::initial_values(problem);
     if (problem.held >= 0 && !graph.edges_only) {
       const Index v = problem.variables.variable_vertex[problem.held];
-      const Values given = file_values(problem);
+      const factor::Values given = factor::file_values(problem);
       for (Index k = problem.value_at[v]; k < problem.value_at[v + 1]; ++k)
         CHECK(composed[k] == given[k]);
     }
-    return chi2(problem, composed);
+    return factor::chi2(problem, composed);
   };
   const std::string off =
       "VERTEX_SE2 0 5 3 1\nVERTEX_SE2 1 6 3 1.2\nVERTEX_SE2 2 7 3 1.1\nVERTEX_XY 3 0 0\n"
@@ -339,8 +339,8 @@ TEST_CASE("composed estimates stand where the gauge is held", "[factor]") {
 TEST_CASE("what no edge places is told", "[factor]") {
   const auto adrift = [](const std::string& text) {
     const Graph graph = graph_of(text);
-    const Problem problem = make_problem(graph);
-    return compose(problem).adrift;
+    const factor::Problem problem = factor::make_problem(graph);
+    return factor::compose(problem).adrift;
   };
   const std::string seen = "EDGE_SE2_XY 0 10 1 1 1 0 1\nEDGE_SE2_XY 1 10 0 1 1 0 1\n";
   CHECK(adrift(seen) == std::vector<Index>{1});
@@ -349,21 +349,23 @@ TEST_CASE("what no edge places is told", "[factor]") {
 }
 
 TEST_CASE("kernels weigh blocks by the slope of rho", "[factor]") {
-  for (const Kernel kernel : {Kernel{KernelShape::huber, 1.3}, Kernel{KernelShape::cauchy, 0.7}}) {
+  for (const factor::Kernel kernel : {factor::Kernel{factor::KernelShape::huber, 1.3},
+                                      factor::Kernel{factor::KernelShape::cauchy, 0.7}}) {
     for (double s : {0.1, 1.0, 5.0, 100.0}) {
-      const double slope = (rho(kernel, s + 1e-5) - rho(kernel, s - 1e-5)) / 2e-5;
-      CHECK(weight(kernel, s) == Approx(slope).epsilon(1e-6));
+      const double slope = (factor::rho(kernel, s + 1e-5) - factor::rho(kernel, s - 1e-5)) / 2e-5;
+      CHECK(factor::weight(kernel, s) == Approx(slope).epsilon(1e-6));
     }
   }
   const Graph graph = test_graph("types-se2.g2o");
-  const Problem problem = make_problem(graph);
-  const Values values = start_values(problem);
-  LinearSystem plain = make_linear_system(problem), weighed = make_linear_system(problem);
-  const Kernel kernel{KernelShape::huber, 0.5};
-  linearize(problem, values, {}, plain);
-  linearize(problem, values, kernel, weighed);
+  const factor::Problem problem = factor::make_problem(graph);
+  const factor::Values values = factor::start_values(problem);
+  factor::LinearSystem plain = factor::make_linear_system(problem),
+                       weighed = factor::make_linear_system(problem);
+  const factor::Kernel kernel{factor::KernelShape::huber, 0.5};
+  factor::linearize(problem, values, {}, plain);
+  factor::linearize(problem, values, kernel, weighed);
   for (Index r = 0; r < graph.edges(); ++r) {
-    const double scale = std::sqrt(weight(kernel, edge_chi2(problem, values, r)));
+    const double scale = std::sqrt(factor::weight(kernel, factor::edge_chi2(problem, values, r)));
     for (Offset k = plain.begin[r]; k < plain.begin[r + 1]; ++k) {
       CHECK(weighed.numbers[k] == Approx(scale * plain.numbers[k]).margin(1e-12));
     }
@@ -373,8 +375,8 @@ TEST_CASE("kernels weigh blocks by the slope of rho", "[factor]") {
 TEST_CASE("a singular information matrix counts for what it says", "[factor]") {
   const Graph graph =
       graph_of("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 2 0.5\nEDGE_SE2 0 1 0 0 0 4 2 0 1 0 0\n");
-  const Problem problem = make_problem(graph);
-  CHECK(chi2(problem, start_values(problem)) == Approx(4 * 1 + 2 * 2 * 2 + 1 * 4));
+  const factor::Problem problem = factor::make_problem(graph);
+  CHECK(factor::chi2(problem, factor::start_values(problem)) == Approx(4 * 1 + 2 * 2 * 2 + 1 * 4));
 }
 
 TEST_CASE("estimates without VERTEX lines are composed", "[factor]") {
@@ -385,11 +387,11 @@ TEST_CASE("estimates without VERTEX lines are composed", "[factor]") {
       "EDGE_SE2_XY 1 20 2 1 1 0 1\n"
       "EDGE_BEARING_SE2_XY 0 21 0.7853981633974483 1\nEDGE_BEARING_SE2_XY 1 21 0 1\n"
       "EDGE_BEARING_SE2_XY 1 22 1.5707963267948966 1\n");
-  const Problem problem = make_problem(graph);
-  const Values values = start_values(problem);
+  const factor::Problem problem = factor::make_problem(graph);
+  const factor::Values values = factor::start_values(problem);
   const auto estimate = [&](Id id) {
-    const Index v = *find_vertex(graph, id);
-    std::vector<double> numbers = estimate_numbers(problem, values, v);
+    const Index v = *graph::find_vertex(graph, id);
+    std::vector<double> numbers = factor::estimate_numbers(problem, values, v);
     return Eigen::VectorXd(
         Eigen::Map<Eigen::VectorXd>(numbers.data(), static_cast<Index>(numbers.size())));
   };
@@ -399,7 +401,7 @@ TEST_CASE("estimates without VERTEX lines are composed", "[factor]") {
   CHECK((estimate(9) - Eigen::Vector3d(1, 1, quarter)).norm() < 1e-12);
   CHECK((estimate(20) - Eigen::Vector2d(0, 2)).norm() < 1e-12);
   CHECK((estimate(21) - Eigen::Vector2d(1, 1)).norm() < 1e-12);
-  CHECK((estimate(22) - Eigen::Vector2d(1 - lone_range, 0)).norm() < 1e-12);
+  CHECK((estimate(22) - Eigen::Vector2d(1 - factor::lone_range, 0)).norm() < 1e-12);
 }
 
 TEST_CASE("measurements without noise place every vertex exactly", "[factor]") {
@@ -409,20 +411,20 @@ TEST_CASE("measurements without noise place every vertex exactly", "[factor]") {
   text += "EDGE_PROJECT_XYZ2UV:EXPMAP 2 0 0 445 365 1 0 1\n";  // (1, 1, 4)
   text += "EDGE_PROJECT_XYZ2UV:EXPMAP 2 1 0 320 365 1 0 1\n";
   const Graph graph = graph_of(text);
-  const Problem problem = make_problem(graph);
-  const Values values = initial_values(problem);
-  CHECK(chi2(problem, values) < 1e-16);
+  const factor::Problem problem = factor::make_problem(graph);
+  const factor::Values values = factor::initial_values(problem);
+  CHECK(factor::chi2(problem, values) < 1e-16);
 }
 
 TEST_CASE("estimates go to text and back", "[factor]") {
   for (const char* name : {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o"}) {
     const Graph graph = test_graph(name);
-    const Problem problem = make_problem(graph);
-    const Values values = file_values(problem);
+    const factor::Problem problem = factor::make_problem(graph);
+    const factor::Values values = factor::file_values(problem);
     for (Index v = 0; v < graph.vertices(); ++v) {
       std::vector<double> numbers;
-      vertex_numbers(graph, v, numbers);
-      const auto written = estimate_numbers(problem, values, v);
+      graph::vertex_numbers(graph, v, numbers);
+      const auto written = factor::estimate_numbers(problem, values, v);
       REQUIRE(written.size() == numbers.size());
       for (std::size_t k = 0; k < numbers.size(); ++k) {
         CHECK(written[k] == Approx(numbers[k]).margin(1e-6));
@@ -430,16 +432,17 @@ TEST_CASE("estimates go to text and back", "[factor]") {
     }
   }
   const Graph graph = graph_of("VERTEX_SE2 0 0.1 -1e-300 3\nEDGE_PRIOR_SE2_XY 0 0 0 1 0 1\n");
-  const Problem problem = make_problem(graph);
-  CHECK(estimate_text(problem, file_values(problem), 0) == "0.1 -1e-300 3");
-  CHECK(vertex_line(problem, file_values(problem), 0) == "VERTEX_SE2 0 0.1 -1e-300 3\n");
+  const factor::Problem problem = factor::make_problem(graph);
+  CHECK(factor::estimate_text(problem, factor::file_values(problem), 0) == "0.1 -1e-300 3");
+  CHECK(factor::vertex_line(problem, factor::file_values(problem), 0) ==
+        "VERTEX_SE2 0 0.1 -1e-300 3\n");
 }
 
 TEST_CASE("a file without VERTEX lines gives no estimates", "[factor]") {
   const Graph graph = graph_of("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
-  const Problem problem = make_problem(graph);
-  CHECK_THROWS_AS(file_values(problem), Error);
-  CHECK(start_values(problem) == Values{0, 0, 0, 1, 0, 0});
+  const factor::Problem problem = factor::make_problem(graph);
+  CHECK_THROWS_AS(factor::file_values(problem), text::Error);
+  CHECK(factor::start_values(problem) == factor::Values{0, 0, 0, 1, 0, 0});
 }
 
 TEST_CASE("what cannot be solved is said with its line", "[factor]") {

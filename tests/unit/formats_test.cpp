@@ -12,34 +12,34 @@ using namespace sg;
 namespace {
 
 Graph graph_of(const std::string& text, const std::string& format = "") {
-  ReadOptions options;
+  formats::ReadOptions options;
   options.format = format;
-  return read_graph_text(text_of(text), "test", options);
+  return formats::read_graph_text(text::text_of(text), "test", options);
 }
 
 std::vector<std::string> complaints_of(const std::string& text, const std::string& format = "") {
   std::vector<std::string> messages;
-  ReadOptions options;
+  formats::ReadOptions options;
   options.format = format;
-  options.complaint = [&](const Error& error) { messages.push_back(message(error)); };
-  read_graph_text(text_of(text), "test", options);
+  options.complaint = [&](const text::Error& error) { messages.push_back(text::message(error)); };
+  formats::read_graph_text(text::text_of(text), "test", options);
   return messages;
 }
 
 std::vector<double> numbers_of(const Graph& graph, Index e) {
   std::vector<double> numbers;
-  edge_numbers(graph, e, numbers);
+  graph::edge_numbers(graph, e, numbers);
   return numbers;
 }
 
 std::vector<double> estimate_of(const Graph& graph, Index v) {
   std::vector<double> numbers;
-  vertex_numbers(graph, v, numbers);
+  graph::vertex_numbers(graph, v, numbers);
   return numbers;
 }
 
 std::string format_of(std::string_view text) {
-  for (const ReadFormat& format : read_formats()) {
+  for (const formats::ReadFormat& format : formats::read_formats()) {
     if (format.looks_like(text)) return std::string(format.name);
   }
   return "";
@@ -70,7 +70,7 @@ TEST_CASE("iSAM: square roots become information", "[formats]") {
   CHECK(graph.edges_only);
   // R^T R of R = [1 2 3; 0 4 5; 0 0 6]
   CHECK(numbers_of(graph, 0) == std::vector<double>{1.5, 2, .5, 1, 2, 3, 20, 26, 70});
-  CHECK(line_at(graph, graph.edge_line[0]).starts_with("EDGE_SE2 0 1 1.50 2e0 +.5 "));
+  CHECK(graph::line_at(graph, graph.edge_line[0]).starts_with("EDGE_SE2 0 1 1.50 2e0 +.5 "));
 }
 
 TEST_CASE("iSAM: landmarks are numbered apart from poses", "[formats]") {
@@ -79,10 +79,10 @@ TEST_CASE("iSAM: landmarks are numbered apart from poses", "[formats]") {
       "LANDMARK 7 9 1 0 2 1 3\n"
       "LANDMARK 0 7 1 0 2 0 2\n");
   REQUIRE(graph.id == std::vector<Id>{0, 7, 15, 17});
-  CHECK(graph.role(0) == Role::pose);
-  CHECK(graph.role(1) == Role::pose);
-  CHECK(graph.role(2) == Role::landmark);
-  CHECK(graph.role(3) == Role::landmark);
+  CHECK(graph.role(0) == graph::Role::pose);
+  CHECK(graph.role(1) == graph::Role::pose);
+  CHECK(graph.role(2) == graph::Role::landmark);
+  CHECK(graph.role(3) == graph::Role::landmark);
   CHECK(graph.edge(1)[1] == 3);
   CHECK(numbers_of(graph, 1) == std::vector<double>{1, 0, 4, 2, 10});
   const auto beyond =
@@ -96,7 +96,7 @@ TEST_CASE("iSAM: points in space come with an identity offset", "[formats]") {
       "EDGE3 0 1 1 2 3 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 3 0 4 5 0 0\n"
       "POINT3 1 0 4 5 6 1 0 0 1 0 2");
   REQUIRE(graph.params.size() == 1);
-  CHECK(edge_params(graph, 1) == std::vector<Id>{graph.params[0].id});
+  CHECK(graph::edge_params(graph, 1) == std::vector<Id>{graph.params[0].id});
   const auto n = numbers_of(graph, 0);
   CHECK(std::vector<double>(n.begin(), n.begin() + 7) == std::vector<double>{1, 2, 3, 0, 0, 0, 1});
   // Rotation rows and columns are over half the rotation vector: R_rr^T R_rr = [9 0 12; 0 25 0;
@@ -147,19 +147,20 @@ TEST_CASE("public iSAM files have the published elimination complexity", "[forma
   if (!folder) return;
   const auto [name, ec] = GENERATE(table<std::string, std::string>(
       {{"victoriaPark", "3348952"}, {"manhattanOlson3500", "7738470"}, {"sphere400", "17237880"}}));
-  const Graph graph = read_graph(*folder + "/" + name + ".isam.txt");
-  const GraphPattern pattern = graph_pattern(graph);
-  const Order order = elimination_order("colamd", pattern.pattern, order_options(graph, pattern));
-  CHECK(to_string(elimination_complexity(pattern.pattern, order)) == ec);
+  const Graph graph = formats::read_graph(*folder + "/" + name + ".isam.txt");
+  const graph::GraphPattern pattern = graph::graph_pattern(graph);
+  const graph::Order order =
+      order::elimination_order("colamd", pattern.pattern, order::order_options(graph, pattern));
+  CHECK(elim::to_string(elim::elimination_complexity(pattern.pattern, order)) == ec);
 }
 
 TEST_CASE("a defective line leaves nothing behind", "[formats]") {
-  ReadOptions options;
+  formats::ReadOptions options;
   int defects = 0;
-  options.complaint = [&](const Error&) { ++defects; };
-  const Graph graph = read_graph_text(
-      text_of("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 x\nPARAMS_SE2OFFSET 0 1 x 0\nFIX 0 x\n"
-              "EDGE_SE2 0 0 1 0 0 1 0 0 1 0 x\nEDGE_SE2_LOTSOFXY 0 3 0 0\n"),
+  options.complaint = [&](const text::Error&) { ++defects; };
+  const Graph graph = formats::read_graph_text(
+      text::text_of("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 x\nPARAMS_SE2OFFSET 0 1 x 0\nFIX 0 x\n"
+                    "EDGE_SE2 0 0 1 0 0 1 0 0 1 0 x\nEDGE_SE2_LOTSOFXY 0 3 0 0\n"),
       "test", options);
   CHECK(defects == 5);
   CHECK(graph.vertices() == 1);

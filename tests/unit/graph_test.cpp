@@ -14,11 +14,11 @@ using namespace sg::test;
 
 namespace {
 
-std::string cause(const std::string& text, const ReadOptions& options = {}) {
+std::string cause(const std::string& text, const formats::ReadOptions& options = {}) {
   try {
-    read_graph_text(text_of(text), "test.g2o", options);
-  } catch (const Error& error) {
-    return message(error);
+    formats::read_graph_text(text::text_of(text), "test.g2o", options);
+  } catch (const text::Error& error) {
+    return text::message(error);
   }
   return "";
 }
@@ -53,7 +53,7 @@ std::string random_graph(Random& random) {
 // The definition of time, word for word: goes step by step and asks every landmark and every edge
 // whether its turn is now.
 std::vector<Index> literal_edge_steps(const Graph& graph, int min_obs) {
-  const PoseIndex poses = pose_index(graph);
+  const graph::PoseIndex poses = graph::pose_index(graph);
   std::vector<bool> present(graph.vertices(), false);
   std::vector<Index> step_of(graph.edges(), -1);
   std::vector<bool> observed(graph.vertices(), false);  // by any pose, ever
@@ -70,10 +70,10 @@ std::vector<Index> literal_edge_steps(const Graph& graph, int min_obs) {
       Index last = -1;
       for (Index v : graph.edge(e)) last = std::max(last, poses.index[v]);
       if (last < 0 || last > step) continue;
-      for (Index v : graph.edge(e)) observations[v] += graph.role(v) == Role::landmark;
+      for (Index v : graph.edge(e)) observations[v] += graph.role(v) == graph::Role::landmark;
     }
     for (const auto& [v, count] : observations) {
-      if (graph.role(v) == Role::landmark && count >= min_obs) present[v] = true;
+      if (graph.role(v) == graph::Role::landmark && count >= min_obs) present[v] = true;
     }
     for (bool changed = true; changed;) {
       changed = false;
@@ -107,7 +107,7 @@ TEST_CASE("a replay adds every edge at the step that the definition gives it", "
   for (int round = 0; round < 500; ++round) {
     const Graph graph = graph_of(random_graph(random));
     const int min_obs = draw(random, 1, 3);
-    CHECK(replay(graph, pose_index(graph), min_obs).edge_step ==
+    CHECK(graph::replay(graph, graph::pose_index(graph), min_obs).edge_step ==
           literal_edge_steps(graph, min_obs));
   }
 }
@@ -115,11 +115,11 @@ TEST_CASE("a replay adds every edge at the step that the definition gives it", "
 TEST_CASE("the pose index is the rank by id, whatever the order of lines", "[graph]") {
   const Graph graph =
       graph_of("VERTEX_SE2 9 0 0 0\nVERTEX_XY 5 0 0\nVERTEX_SE2 2 0 0 0\nVERTEX_SE2 4 0 0 0\n");
-  const PoseIndex poses = pose_index(graph);
+  const graph::PoseIndex poses = graph::pose_index(graph);
   REQUIRE(graph.id == std::vector<Id>{2, 4, 5, 9});
   CHECK(poses.pose == std::vector<Index>{0, 1, 3});
   CHECK(poses.index == std::vector<Index>{0, 1, -1, 2});
-  CHECK(file_order(graph) == std::vector<Index>{3, 2, 0, 1});
+  CHECK(graph::file_order(graph) == std::vector<Index>{3, 2, 0, 1});
 }
 
 TEST_CASE("edges have roles, and a gap in odometry starts a segment", "[graph]") {
@@ -127,18 +127,19 @@ TEST_CASE("edges have roles, and a gap in odometry starts a segment", "[graph]")
       "EDGE_SE2 0 1 0 0 0 1 0 0 1 0 1\nEDGE_SE2 3 2 0 0 0 1 0 0 1 0 1\nEDGE_SE2 0 3 0 0 0 1 0 0 1 "
       "0 1\n"
       "EDGE_SE2_XY 1 7 0 0 1 0 1\nEDGE_PRIOR_SE2 0 0 0 0 1 0 0 1 0 1\n");
-  const PoseIndex poses = pose_index(graph);
-  CHECK(edge_roles(graph, poses) == std::vector<EdgeRole>{EdgeRole::odometry, EdgeRole::odometry,
-                                                          EdgeRole::loop_closure,
-                                                          EdgeRole::observation, EdgeRole::other});
-  CHECK(segments(graph, poses) == std::vector<Index>{0, 2});
+  const graph::PoseIndex poses = graph::pose_index(graph);
+  CHECK(graph::edge_roles(graph, poses) ==
+        std::vector<graph::EdgeRole>{graph::EdgeRole::odometry, graph::EdgeRole::odometry,
+                                     graph::EdgeRole::loop_closure, graph::EdgeRole::observation,
+                                     graph::EdgeRole::other});
+  CHECK(graph::segments(graph, poses) == std::vector<Index>{0, 2});
 }
 
 TEST_CASE("adjacency is the graph of A^T A", "[graph]") {
   Random random(11);
   for (int round = 0; round < 200; ++round) {
-    const GraphPattern graph = graph_pattern(graph_of(random_graph(random)));
-    const Pattern& pattern = graph.pattern;
+    const graph::GraphPattern graph = graph::graph_pattern(graph_of(random_graph(random)));
+    const graph::Pattern& pattern = graph.pattern;
     std::vector<std::set<Index>> expected(pattern.variables());
     for (Index r = 0; r < pattern.rows.size(); ++r) {
       for (Index i : pattern.rows[r]) {
@@ -147,7 +148,7 @@ TEST_CASE("adjacency is the graph of A^T A", "[graph]") {
         }
       }
     }
-    const Adjacency actual = adjacency(pattern);
+    const graph::Adjacency actual = graph::adjacency(pattern);
     REQUIRE(actual.size() == pattern.variables());
     for (Index j = 0; j < actual.size(); ++j) {
       CHECK(std::vector<Index>(actual[j].begin(), actual[j].end()) ==
@@ -161,7 +162,7 @@ TEST_CASE("fixed vertices are no variables, and a factor counts a variable once"
       "VERTEX_SE2 1 0 0 0\nVERTEX_SE2 2 0 0 0\nVERTEX_SE2 3 0 0 0\nFIX 1 3\nEDGE_SE2 1 2 0 0 0 1 0 "
       "0 1 0 1\n"
       "EDGE_SE2 2 2 0 0 0 1 0 0 1 0 1\nEDGE_SE2 1 3 0 0 0 1 0 0 1 0 1\n");
-  const GraphPattern pattern = graph_pattern(graph);
+  const graph::GraphPattern pattern = graph::graph_pattern(graph);
   CHECK(pattern.variable_vertex == std::vector<Index>{1});
   CHECK(pattern.vertex_variable == std::vector<Index>{-1, 0, -1});
   CHECK(pattern.pattern.rows.begin == std::vector<Index>{0, 1, 2, 2});
@@ -187,11 +188,12 @@ TEST_CASE("a wrong line is named with its cause", "[graph]") {
 
 TEST_CASE("reading goes on after a defect, without its line", "[graph]") {
   std::vector<std::string> said;
-  ReadOptions options;
-  options.complaint = [&](const Error& error) { said.push_back(message(error)); };
-  const Graph graph = read_graph_text(text_of("VERTEX_XY 1 0\nVERTEX_XY 2 0 0\nEDGE_POINTXY 2 2 0 "
-                                              "0 1 0 1\nEDGE_POINTXY 1 2 0 0 1 0 1\nFIX 1 2\n"),
-                                      "test.g2o", options);
+  formats::ReadOptions options;
+  options.complaint = [&](const text::Error& error) { said.push_back(text::message(error)); };
+  const Graph graph =
+      formats::read_graph_text(text::text_of("VERTEX_XY 1 0\nVERTEX_XY 2 0 0\nEDGE_POINTXY 2 2 0 "
+                                             "0 1 0 1\nEDGE_POINTXY 1 2 0 0 1 0 1\nFIX 1 2\n"),
+                               "test.g2o", options);
   CHECK(said == std::vector<std::string>{
                     "test.g2o:1: VERTEX_XY wants 2 numbers here, the line has 1",
                     "test.g2o:4: EDGE_POINTXY joins vertex 1, which the file does not define",
@@ -202,20 +204,20 @@ TEST_CASE("reading goes on after a defect, without its line", "[graph]") {
 }
 
 TEST_CASE("a taught tag has its dimension, role and arity", "[graph]") {
-  ReadOptions options;
+  formats::ReadOptions options;
   options.vertex_types = {"VERTEX_WHEEL:BASE:5:pose"};
   options.edge_types = {"EDGE_THREE:3"};
   const std::string text =
       "VERTEX_WHEEL:BASE 1 0.5\nVERTEX_WHEEL:BASE 2\nVERTEX_XY 3 0 0\nEDGE_THREE 1 2 3\n";
-  const Graph graph = read_graph_text(text_of(text), "test.g2o", options);
+  const Graph graph = formats::read_graph_text(text::text_of(text), "test.g2o", options);
   REQUIRE(graph.vertices() == 3);
   CHECK(graph.dim(0) == 5);
-  CHECK(graph.role(0) == Role::pose);
+  CHECK(graph.role(0) == graph::Role::pose);
   REQUIRE(graph.edges() == 1);
   CHECK(graph.edge(0).size() == 3);
 
   for (const std::string wrong : {"A", "A:0:pose", "A:3:boss", ":3:pose", "A:3", "A:-1:pose"}) {
-    ReadOptions bad;
+    formats::ReadOptions bad;
     bad.vertex_types = {wrong};
     CHECK(cause("", bad).starts_with("--vertex wants TAG:DIM:ROLE"));
   }

@@ -66,7 +66,7 @@ std::string random_walk(Random& random, int poses, bool vertices) {
 }
 
 // Cliques that are in the tree.
-std::vector<sg::Index> alive(const sg::Isam2& isam) {
+std::vector<sg::Index> alive(const sg::solve::Isam2& isam) {
   const std::set<sg::Index> free(isam.tree.free.begin(), isam.tree.free.end());
   std::vector<sg::Index> cliques;
   for (sg::Index c = 0; c < static_cast<sg::Index>(isam.tree.cliques.size()); ++c) {
@@ -77,12 +77,12 @@ std::vector<sg::Index> alive(const sg::Isam2& isam) {
 
 // Every variable is frontal once, every row assembled once, where its first variable is eliminated;
 // separators lie within parents; what is summed up is the sum.
-void check_tree(const sg::Isam2& isam) {
+void check_tree(const sg::solve::Isam2& isam) {
   std::set<sg::Index> variables, rows;
-  sg::Wide ec_bt = 0;
+  sg::elim::Wide ec_bt = 0;
   sg::Index cliques = 0;
   for (sg::Index c : alive(isam)) {
-    const sg::Isam2Clique& clique = isam.tree.cliques[c];
+    const sg::solve::Isam2Clique& clique = isam.tree.cliques[c];
     const sg::Index* list = isam.tree.lists.data() + clique.lists;
     const std::set<sg::Index> members(list, list + clique.frontals + clique.separators);
     for (sg::Index k = 0; k < clique.frontals; ++k) {
@@ -97,13 +97,13 @@ void check_tree(const sg::Isam2& isam) {
     }
     CHECK((clique.parent < 0) == (clique.separators == 0));
     if (clique.parent >= 0) {
-      const sg::Isam2Clique& parent = isam.tree.cliques[clique.parent];
+      const sg::solve::Isam2Clique& parent = isam.tree.cliques[clique.parent];
       const sg::Index* up = isam.tree.lists.data() + parent.lists;
       const std::set<sg::Index> above(up, up + parent.frontals + parent.separators);
       for (sg::Index k = 0; k < clique.separators; ++k)
         CHECK(above.contains(list[clique.frontals + k]));
     }
-    ec_bt += static_cast<sg::Wide>(clique.ec);
+    ec_bt += static_cast<sg::elim::Wide>(clique.ec);
     ++cliques;
   }
   CHECK(static_cast<sg::Index>(variables.size()) == isam.variables);
@@ -114,14 +114,14 @@ void check_tree(const sg::Isam2& isam) {
 
 // Largest difference between the smoother's step and the one that batch elimination of the same
 // linearized system gives.
-double difference(const sg::Isam2& isam) {
-  sg::Snapshot snapshot;
-  sg::take_snapshot(isam, true, snapshot);
-  auto elimination =
-      sg::plan_elimination(snapshot.system, sg::elimination_order("colamd", snapshot.anchored));
-  REQUIRE(sg::eliminate(elimination, snapshot.system).empty());
+double difference(const sg::solve::Isam2& isam) {
+  sg::solve::Snapshot snapshot;
+  sg::solve::take_snapshot(isam, true, snapshot);
+  auto elimination = sg::solve::plan_elimination(
+      snapshot.system, sg::order::elimination_order("colamd", snapshot.anchored));
+  REQUIRE(sg::solve::eliminate(elimination, snapshot.system).empty());
   std::vector<double> step;
-  sg::back_substitute(elimination, step);
+  sg::solve::back_substitute(elimination, step);
   double most = 0;
   for (std::size_t k = 0; k < snapshot.variable.size(); ++k) {
     const sg::Index at = isam.problem->step_at[snapshot.variable[k]];
@@ -131,11 +131,11 @@ double difference(const sg::Isam2& isam) {
   return most;
 }
 
-double batch_chi2(const sg::Problem& problem, sg::Values values) {
-  const sg::Order order = sg::elimination_order("colamd", problem.variables.pattern);
-  sg::LinearSystem system = sg::make_linear_system(problem);
-  const auto solver = sg::backends().front().make(system, order, 1);
-  return sg::optimize(problem, system, solver, {}, values).chi2;
+double batch_chi2(const sg::factor::Problem& problem, sg::factor::Values values) {
+  const sg::graph::Order order = sg::order::elimination_order("colamd", problem.variables.pattern);
+  sg::factor::LinearSystem system = sg::factor::make_linear_system(problem);
+  const auto solver = sg::solve::backends().front().make(system, order, 1);
+  return sg::solve::optimize(problem, system, solver, {}, values).chi2;
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ double batch_chi2(const sg::Problem& problem, sg::Values values) {
 TEST_CASE("pool: blocks never overlap and come back", "[isam2]") {
   Random random(1);
   const std::int64_t chunk = 128;
-  sg::Pool pool(chunk);
+  sg::solve::Pool pool(chunk);
   std::vector<std::pair<std::int64_t, std::int64_t>> taken;
   for (int trial = 0; trial < 3000; ++trial) {
     if (draw(random, 0, 2) > 0 || taken.empty()) {
@@ -174,15 +174,15 @@ TEST_CASE("each step solves the linearized system as batch elimination does", "[
   Random random(2);
   for (int trial = 0; trial < 12; ++trial) {
     const sg::Graph graph = graph_of(random_walk(random, draw(random, 2, 60), trial % 2 == 0));
-    const sg::Problem problem = sg::make_problem(graph);
-    sg::Isam2Options options;
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    sg::solve::Isam2Options options;
     options.wildfire_threshold = 0;
     options.relinearize_skip = trial % 3;
     options.relinearize_threshold = trial % 4 == 0 ? 0.001 : 0.05;
     if (trial % 5 == 4) options.ordering = "amd";
-    auto replay = sg::make_isam2_replay(problem, options, 1 + trial % 2, trial % 4 == 2);
+    auto replay = sg::solve::make_isam2_replay(problem, options, 1 + trial % 2, trial % 4 == 2);
     for (sg::Index k = 0; k < replay.steps.steps; ++k) {
-      sg::replay_step(replay, k);
+      sg::solve::replay_step(replay, k);
       check_tree(replay.isam);
       CHECK(difference(replay.isam) < 1e-8);
     }
@@ -193,11 +193,11 @@ TEST_CASE("without relaxing thresholds, replay ends at batch's optimum", "[isam2
   Random random(3);
   for (int trial = 0; trial < 6; ++trial) {
     const sg::Graph graph = graph_of(random_walk(random, 60, true));
-    const sg::Problem problem = sg::make_problem(graph);
-    auto replay = sg::make_isam2_replay(problem, {}, 1, false);
-    for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::replay_step(replay, k);
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    auto replay = sg::solve::make_isam2_replay(problem, {}, 1, false);
+    for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::solve::replay_step(replay, k);
     const double best = batch_chi2(problem, replay.isam.estimate);
-    CHECK(sg::chi2(replay.isam) == Approx(best).epsilon(0.01));
+    CHECK(sg::solve::chi2(replay.isam) == Approx(best).epsilon(0.01));
     // What is held stays.
     CHECK(replay.isam.estimate[0] == 0);
   }
@@ -206,21 +206,21 @@ TEST_CASE("without relaxing thresholds, replay ends at batch's optimum", "[isam2
 TEST_CASE("skip 0 never relinearizes, a threshold of 0 does at once", "[isam2]") {
   Random random(4);
   const sg::Graph graph = graph_of(random_walk(random, 40, false));
-  const sg::Problem problem = sg::make_problem(graph);
-  sg::Isam2Options options;
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
+  sg::solve::Isam2Options options;
   options.relinearize_skip = 0;
-  auto never = sg::make_isam2_replay(problem, options, 1, false);
+  auto never = sg::solve::make_isam2_replay(problem, options, 1, false);
   sg::Index relinearized = 0;
   for (sg::Index k = 0; k < never.steps.steps; ++k)
-    relinearized += sg::replay_step(never, k).relinearized;
+    relinearized += sg::solve::replay_step(never, k).relinearized;
   CHECK(relinearized == 0);
   options.relinearize_skip = 1;
   options.relinearize_threshold = 0;
   options.wildfire_threshold = 0;
-  auto always = sg::make_isam2_replay(problem, options, 1, false);
+  auto always = sg::solve::make_isam2_replay(problem, options, 1, false);
   for (sg::Index k = 0; k < always.steps.steps; ++k) {
     const auto before = always.isam.variables;
-    CHECK(sg::replay_step(always, k).relinearized == before);
+    CHECK(sg::solve::replay_step(always, k).relinearized == before);
   }
 }
 
@@ -228,15 +228,15 @@ TEST_CASE("a step that cannot be solved is named with what it leaves open", "[is
   const sg::Graph graph = graph_of(
       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 2 0 0\nVERTEX_SE2 3 3 0 0\n"
       "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n");
-  const sg::Problem problem = sg::make_problem(graph);
-  auto replay = sg::make_isam2_replay(problem, {}, 1, false);
-  sg::replay_step(replay, 0);
-  sg::replay_step(replay, 1);
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
+  auto replay = sg::solve::make_isam2_replay(problem, {}, 1, false);
+  sg::solve::replay_step(replay, 0);
+  sg::solve::replay_step(replay, 1);
   try {
-    sg::replay_step(replay, 2);
+    sg::solve::replay_step(replay, 2);
     FAIL("solved");
-  } catch (const sg::Error& error) {
-    CHECK(error.fault == sg::Fault::computation);
+  } catch (const sg::text::Error& error) {
+    CHECK(error.fault == sg::text::Fault::computation);
     CHECK(std::string(error.what()) ==
           "step 2: the system is singular: the measurements leave vertex 2 undetermined; "
           "add edges or FIX lines, or leave it out");
@@ -248,11 +248,12 @@ TEST_CASE("public graphs: replay comes within 1 % of batch", "[isam2]") {
   if (!folder) return;
   for (const char* name : {"intel.g2o", "manhattanOlson3500.isam.txt"}) {
     INFO(name);
-    const sg::Graph graph = sg::read_graph(*folder + "/" + name);
-    const sg::Problem problem = sg::make_problem(graph);
-    auto replay = sg::make_isam2_replay(problem, {}, 1, false);
-    for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::replay_step(replay, k);
+    const sg::Graph graph = sg::formats::read_graph(*folder + "/" + name);
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    auto replay = sg::solve::make_isam2_replay(problem, {}, 1, false);
+    for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::solve::replay_step(replay, k);
     check_tree(replay.isam);
-    CHECK(sg::chi2(replay.isam) == Approx(batch_chi2(problem, replay.isam.estimate)).epsilon(0.01));
+    CHECK(sg::solve::chi2(replay.isam) ==
+          Approx(batch_chi2(problem, replay.isam.estimate)).epsilon(0.01));
   }
 }

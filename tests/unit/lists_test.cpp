@@ -14,7 +14,7 @@ namespace {
 using Random = std::mt19937;
 using Plain = std::vector<std::vector<Index>>;
 
-Plain plain(const Lists<>& lists) {
+Plain plain(const graph::Lists<>& lists) {
   Plain result;
   for (Index k = 0; k < lists.size(); ++k) result.emplace_back(lists[k].begin(), lists[k].end());
   return result;
@@ -23,7 +23,7 @@ Plain plain(const Lists<>& lists) {
 }  // namespace
 
 TEST_CASE("lists are built one after the other", "[lists]") {
-  Lists<> lists;
+  graph::Lists<> lists;
   CHECK(lists.size() == 0);
   CHECK(lists.open().empty());
   lists.items.push_back(7);
@@ -50,9 +50,9 @@ TEST_CASE("items are grouped, and lists transposed, in order", "[lists]") {
       list_of[i] = static_cast<Index>(random() % (count + 1)) - 1;
       if (list_of[i] >= 0) expected[list_of[i]].push_back(static_cast<Index>(i));
     }
-    CHECK(plain(grouped(list_of, count)) == expected);
+    CHECK(plain(graph::grouped(list_of, count)) == expected);
 
-    Lists<> lists;
+    graph::Lists<> lists;
     expected.assign(count, {});
     for (auto k = static_cast<Index>(random() % 6); k > 0; --k) {
       for (auto item = count == 0 ? 0 : random() % 5; item > 0; --item) {
@@ -61,16 +61,17 @@ TEST_CASE("items are grouped, and lists transposed, in order", "[lists]") {
       }
       lists.close();
     }
-    CHECK(plain(transpose(lists, count)) == expected);
+    CHECK(plain(graph::transpose(lists, count)) == expected);
   }
 }
 
 TEST_CASE("lists that outgrow an Index are refused", "[lists]") {
-  CHECK(item_count(0x7fffffff) == 0x7fffffff);
-  CHECK_THROWS_AS(item_count(0x80000000), Error);
+  CHECK(graph::item_count(0x7fffffff) == 0x7fffffff);
+  CHECK_THROWS_AS(graph::item_count(0x80000000), text::Error);
 
-  Pattern pattern{std::vector<int>(46'342, 1), {}};  // n (n - 1) is the first of them above 2^31
+  graph::Pattern pattern{std::vector<int>(46'342, 1),
+                         {}};  // n (n - 1) is the first of them above 2^31
   for (Index j = 0; j < pattern.variables(); ++j) pattern.rows.items.push_back(j);
   pattern.rows.close();
-  CHECK_THROWS_AS(adjacency(pattern), Error);
+  CHECK_THROWS_AS(graph::adjacency(pattern), text::Error);
 }

@@ -18,8 +18,8 @@ using namespace sg::test;
 namespace {
 
 using sg::Index;
-using sg::Order;
-using sg::Pattern;
+using sg::graph::Order;
+using sg::graph::Pattern;
 
 bool is_permutation_of(const Order& order, Index n) {
   Order sorted = order;
@@ -30,12 +30,12 @@ bool is_permutation_of(const Order& order, Index n) {
 }
 
 // EC by the definition: the neighbours that literal elimination meets.
-sg::Wide literal_ec(const Pattern& pattern, const Order& order) {
-  sg::Wide sum = 0;
-  for (const sg::EliminationStep& step : sg::node_elimination(pattern, order)) {
+sg::elim::Wide literal_ec(const Pattern& pattern, const Order& order) {
+  sg::elim::Wide sum = 0;
+  for (const sg::elim::EliminationStep& step : sg::elim::node_elimination(pattern, order)) {
     std::int64_t total = pattern.dim[step.variable];
     for (const Index j : step.neighbours) total += pattern.dim[j];
-    sum += sg::elimination_cost(pattern.dim[step.variable], total);
+    sum += sg::elim::elimination_cost(pattern.dim[step.variable], total);
   }
   return sum;
 }
@@ -66,11 +66,11 @@ TEST_CASE("every ordering is a permutation, the same each time", "[order]") {
   for (int trial = 0; trial < 300; ++trial) {
     const Index n = trial < 20 ? trial / 4 : draw(random, 0, 59);
     const Pattern pattern = odd_pattern(random, n);
-    for (const sg::Ordering& ordering : sg::orderings()) {
+    for (const sg::order::Ordering& ordering : sg::order::orderings()) {
       INFO(ordering.name << " on trial " << trial);
-      const Order order = sg::elimination_order(ordering, pattern);
+      const Order order = sg::order::elimination_order(ordering, pattern);
       REQUIRE(is_permutation_of(order, n));
-      REQUIRE(sg::elimination_order(ordering, pattern) == order);
+      REQUIRE(sg::order::elimination_order(ordering, pattern) == order);
     }
   }
 }
@@ -80,12 +80,12 @@ TEST_CASE("variables constrained to the end stand at the end", "[order]") {
   for (int trial = 0; trial < 200; ++trial) {
     const Index n = draw(random, 0, 39);
     const Pattern pattern = odd_pattern(random, n);
-    sg::OrderOptions options;
+    sg::order::OrderOptions options;
     options.last = some_variables(random, n);
-    if (trial % 10 == 0) options.last = sg::elimination_order("id", pattern);  // all of them
-    for (const sg::Ordering& ordering : sg::orderings()) {
+    if (trial % 10 == 0) options.last = sg::order::elimination_order("id", pattern);  // all of them
+    for (const sg::order::Ordering& ordering : sg::order::orderings()) {
       INFO(ordering.name << " on trial " << trial);
-      const Order order = sg::elimination_order(ordering, pattern, options);
+      const Order order = sg::order::elimination_order(ordering, pattern, options);
       REQUIRE(is_permutation_of(order, n));
       Order tail(order.end() - static_cast<std::ptrdiff_t>(options.last.size()), order.end());
       std::sort(tail.begin(), tail.end());
@@ -98,13 +98,13 @@ TEST_CASE("EC of every ordering is that of literal node elimination", "[order]")
   Random random(4);
   for (int trial = 0; trial < 60; ++trial) {
     const Pattern pattern = odd_pattern(random, draw(random, 0, 49));
-    sg::OrderOptions options;
+    sg::order::OrderOptions options;
     if (trial % 2 == 0) options.last = some_variables(random, pattern.variables());
-    for (const sg::Ordering& ordering : sg::orderings()) {
+    for (const sg::order::Ordering& ordering : sg::order::orderings()) {
       INFO(ordering.name << " on trial " << trial);
-      const Order order = sg::elimination_order(ordering, pattern, options);
-      REQUIRE(sg::to_string(sg::elimination_complexity(pattern, order)) ==
-              sg::to_string(literal_ec(pattern, order)));
+      const Order order = sg::order::elimination_order(ordering, pattern, options);
+      REQUIRE(sg::elim::to_string(sg::elim::elimination_complexity(pattern, order)) ==
+              sg::elim::to_string(literal_ec(pattern, order)));
     }
   }
 }
@@ -116,9 +116,10 @@ TEST_CASE("methods that order part by part give each part its own order", "[orde
     const Pattern b = odd_pattern(random, draw(random, 0, 29));
     for (const char* name : {"metis", "scotch", "mmd", "rcm", "king", "sloan"}) {
       INFO(name << " on trial " << trial);
-      Order expected = sg::elimination_order(name, a);
-      for (const Index j : sg::elimination_order(name, b)) expected.push_back(a.variables() + j);
-      REQUIRE(sg::elimination_order(name, side_by_side(a, b)) == expected);
+      Order expected = sg::order::elimination_order(name, a);
+      for (const Index j : sg::order::elimination_order(name, b))
+        expected.push_back(a.variables() + j);
+      REQUIRE(sg::order::elimination_order(name, side_by_side(a, b)) == expected);
     }
   }
 }
@@ -130,8 +131,8 @@ TEST_CASE("paths are ordered without fill", "[order]") {
     for (Index j = 0; j + 1 < n; ++j) path.rows.add(std::array{j + 1, j});
     for (const char* name : {"id", "colamd", "amd", "wmf", "mmd", "rcm", "king", "sloan"}) {
       INFO(name << ", " << n << " variables");
-      const Order order = sg::elimination_order(name, path);
-      CHECK(sg::to_string(sg::elimination_complexity(path, order)) ==
+      const Order order = sg::order::elimination_order(name, path);
+      CHECK(sg::elim::to_string(sg::elim::elimination_complexity(path, order)) ==
             std::to_string(3 * 36 * (n - 1) + 27));
     }
   }
@@ -140,22 +141,22 @@ TEST_CASE("paths are ordered without fill", "[order]") {
 TEST_CASE("a variable out of range is no last variable", "[order]") {
   Random random(6);
   const Pattern pattern = odd_pattern(random, 5);
-  sg::OrderOptions options;
+  sg::order::OrderOptions options;
   options.last = {5};
-  for (const sg::Ordering& ordering : sg::orderings()) {
-    CHECK_THROWS_AS(sg::elimination_order(ordering, pattern, options), std::out_of_range);
+  for (const sg::order::Ordering& ordering : sg::order::orderings()) {
+    CHECK_THROWS_AS(sg::order::elimination_order(ordering, pattern, options), std::out_of_range);
   }
 }
 
 TEST_CASE("an unknown ordering is a usage error that names the known", "[order]") {
   try {
-    sg::find_ordering("colmad");
+    sg::order::find_ordering("colmad");
     FAIL("no error");
-  } catch (const sg::Error& error) {
-    CHECK(error.fault == sg::Fault::usage);
+  } catch (const sg::text::Error& error) {
+    CHECK(error.fault == sg::text::Fault::usage);
     const std::string text = error.what();
     CHECK(text.find("'colmad'") != text.npos);
-    for (const sg::Ordering& ordering : sg::orderings()) {
+    for (const sg::order::Ordering& ordering : sg::order::orderings()) {
       CHECK(text.find(ordering.name) != text.npos);
     }
   }
@@ -164,24 +165,26 @@ TEST_CASE("an unknown ordering is a usage error that names the known", "[order]"
 TEST_CASE("the random order depends on the seed alone", "[order]") {
   Random random(3);
   const Pattern pattern = odd_pattern(random, 50);
-  sg::OrderOptions other;
+  sg::order::OrderOptions other;
   other.seed = 1;
-  CHECK(sg::elimination_order("random", pattern) !=
-        sg::elimination_order("random", pattern, other));
+  CHECK(sg::order::elimination_order("random", pattern) !=
+        sg::order::elimination_order("random", pattern, other));
 }
 
 TEST_CASE("order_options tells the file's order and the landmarks", "[order]") {
-  const sg::Graph graph = sg::read_graph_text(
-      sg::text_of("VERTEX_SE2 7 0 0 0\nVERTEX_XY 3 1 1\nVERTEX_SE2 1 0 0 0\nVERTEX_SE2 9 0 0 0\n"
-                  "FIX 1\n"),
+  const sg::Graph graph = sg::formats::read_graph_text(
+      sg::text::text_of(
+          "VERTEX_SE2 7 0 0 0\nVERTEX_XY 3 1 1\nVERTEX_SE2 1 0 0 0\nVERTEX_SE2 9 0 0 0\n"
+          "FIX 1\n"),
       "test");
-  const sg::GraphPattern pattern = sg::graph_pattern(graph);  // variables: 3, 7, 9
-  const sg::OrderOptions options = sg::order_options(graph, pattern);
+  const sg::graph::GraphPattern pattern = sg::graph::graph_pattern(graph);  // variables: 3, 7, 9
+  const sg::order::OrderOptions options = sg::order::order_options(graph, pattern);
   CHECK(options.file_order == std::vector<Index>{1, 0, 2});
   CHECK(options.landmark == std::vector<bool>{true, false, false});
-  CHECK(sg::elimination_order("file", pattern.pattern, options) == Order{1, 0, 2});
-  CHECK(sg::elimination_order("id", pattern.pattern, options) == Order{0, 1, 2});
-  CHECK(sg::elimination_order("landmarks-first", pattern.pattern, options) == Order{0, 1, 2});
+  CHECK(sg::order::elimination_order("file", pattern.pattern, options) == Order{1, 0, 2});
+  CHECK(sg::order::elimination_order("id", pattern.pattern, options) == Order{0, 1, 2});
+  CHECK(sg::order::elimination_order("landmarks-first", pattern.pattern, options) ==
+        Order{0, 1, 2});
 }
 
 // EC of public graphs, each computed once by another implementation: CCOLAMD with dense rows and
@@ -210,12 +213,12 @@ TEST_CASE("colamd, amd and metis give the known EC on public graphs", "[order][d
   if (!folder) return;
   for (const Known& row : known) {
     INFO(row.file);
-    const sg::Graph graph = sg::read_graph(*folder + "/" + row.file);
-    const sg::GraphPattern graph_pattern = sg::graph_pattern(graph);
+    const sg::Graph graph = sg::formats::read_graph(*folder + "/" + row.file);
+    const sg::graph::GraphPattern graph_pattern = sg::graph::graph_pattern(graph);
     const Pattern& pattern = graph_pattern.pattern;
     const auto ec = [&](const char* name) {
-      return sg::to_string(
-          sg::elimination_complexity(pattern, sg::elimination_order(name, pattern)));
+      return sg::elim::to_string(
+          sg::elim::elimination_complexity(pattern, sg::order::elimination_order(name, pattern)));
     };
     CHECK(ec("colamd") == std::to_string(row.colamd));
     CHECK(ec("amd") == std::to_string(row.amd));

@@ -24,7 +24,7 @@ sg::Graph grid(int rows, int columns) {
       if (i > 0) join((i - 1) * columns + k, i * columns + k);
     }
   }
-  return sg::read_graph_text(sg::text_of(text), "grid.g2o");
+  return sg::formats::read_graph_text(sg::text::text_of(text), "grid.g2o");
 }
 
 }  // namespace
@@ -33,20 +33,20 @@ TEST_CASE("linearization and elimination: the same numbers by any number of thre
           "[eliminate][parallel]") {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const sg::Graph graph = grid(30, 30);
-  const sg::Problem problem = sg::make_problem(graph);
-  const sg::Values values = sg::start_values(problem);
-  const sg::Order order = sg::elimination_order("metis", problem.variables.pattern);
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
+  const sg::factor::Values values = sg::factor::start_values(problem);
+  const sg::graph::Order order = sg::order::elimination_order("metis", problem.variables.pattern);
   std::vector<double> numbers, step;
   for (const int threads : {1, 2, 4}) {
     tbb::task_arena arena(threads);
-    sg::LinearSystem system = sg::make_linear_system(problem);
-    arena.execute([&] { sg::linearize(problem, values, {}, system); });
-    auto elimination = sg::plan_elimination(system, order, threads);
+    sg::factor::LinearSystem system = sg::factor::make_linear_system(problem);
+    arena.execute([&] { sg::factor::linearize(problem, values, {}, system); });
+    auto elimination = sg::solve::plan_elimination(system, order, threads);
     CHECK((elimination.tasks.size() > 1) == (threads > 1));
     std::vector<double> again;
     for (int repeat = 0; repeat < 3; ++repeat) {
-      REQUIRE(sg::eliminate(elimination, system).empty());
-      sg::back_substitute(elimination, again);
+      REQUIRE(sg::solve::eliminate(elimination, system).empty());
+      sg::solve::back_substitute(elimination, again);
       if (step.empty()) step = again;
       CHECK(again == step);
     }
@@ -59,14 +59,14 @@ TEST_CASE("the portfolio of orderings: the same order by any number of threads",
           "[best][parallel]") {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const sg::Graph graph = grid(12, 12);
-  const sg::Pattern pattern = sg::graph_pattern(graph).pattern;
-  sg::OrderOptions options;
+  const sg::graph::Pattern pattern = sg::graph::graph_pattern(graph).pattern;
+  sg::order::OrderOptions options;
   options.budget = {64, 0};
-  sg::Order first;
+  sg::graph::Order first;
   for (const int threads : {1, 4}) {
-    sg::Order order;
+    sg::graph::Order order;
     tbb::task_arena(threads).execute(
-        [&] { order = sg::elimination_order("best", pattern, options); });
+        [&] { order = sg::order::elimination_order("best", pattern, options); });
     if (first.empty()) first = order;
     CHECK(order == first);
   }

@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-struct StringSink final : Sink {
+struct StringSink final : formats::Sink {
   void write(std::string_view bytes) override { text += bytes; }
   std::string text;
 };
@@ -45,7 +45,7 @@ int dof(Kind kind) {
 
 // Everything below lives in SE(3); the plane is the part of it with these coordinates.
 VectorXd coordinates(Kind kind, const SE3& x) {
-  if (kind == Kind::se2) return Eigen::Vector3d(x.t.x(), x.t.y(), log_so3(x.q).z());
+  if (kind == Kind::se2) return Eigen::Vector3d(x.t.x(), x.t.y(), geometry::log_so3(x.q).z());
   return (VectorXd(7) << x.t, x.q.coeffs()).finished();
 }
 SE3 moved(Kind kind, const SE3& x, const VectorXd& d) {
@@ -55,7 +55,7 @@ SE3 moved(Kind kind, const SE3& x, const VectorXd& d) {
   } else {
     v = d;
   }
-  return compose(x, exp(v));
+  return compose(x, geometry::exp(v));
 }
 SE3 random_motion(Random& random, Kind kind, double size) {
   return moved(kind, SE3{},
@@ -120,27 +120,28 @@ World random_world(Random& random, Kind kind, int n, double noise) {
 }
 
 // The residual of a line as g2o defines it.
-VectorXd residual(const Motion& motion, const SE3& first, const SE3& second) {
-  if (const auto* z = std::get_if<UncertainSE2>(&motion)) {
-    const SE3 mean{exp_so3({0, 0, z->mean.theta}), {z->mean.x, z->mean.y, 0}};
+VectorXd residual(const prune::Motion& motion, const SE3& first, const SE3& second) {
+  if (const auto* z = std::get_if<geometry::UncertainSE2>(&motion)) {
+    const SE3 mean{geometry::exp_so3({0, 0, z->mean.theta}), {z->mean.x, z->mean.y, 0}};
     return coordinates(Kind::se2, between(mean, between(first, second)));
   }
-  if (const auto* z = std::get_if<UncertainSE3>(&motion)) {
+  if (const auto* z = std::get_if<geometry::UncertainSE3>(&motion)) {
     const SE3 e = between(z->mean, between(first, second));
     return (VectorXd(6) << e.t, e.q.vec() * (e.q.w() < 0 ? -1 : 1)).finished();
   }
-  const SE3 c = inverse(std::get<ExpmapMotion>(motion).mean);  // T2^-1 C T1, T world-to-camera
+  const SE3 c =
+      inverse(std::get<prune::ExpmapMotion>(motion).mean);  // T2^-1 C T1, T world-to-camera
   const Vector6d e = log(compose(second, compose(c, inverse(first))));
   return (VectorXd(6) << e.tail<3>(), e.head<3>()).finished();
 }
 
-MatrixXd weight(const Motion& motion) {
+MatrixXd weight(const prune::Motion& motion) {
   return std::visit([](const auto& z) { return MatrixXd(z.information); }, motion);
 }
 
 struct Factor {
   int first, second;  // places in a list of poses
-  Motion motion;
+  prune::Motion motion;
 };
 
 // The Hessian of the factors by all poses, and their gradient; derivatives by central differences.
@@ -187,28 +188,28 @@ MatrixXd solve_and_marginalize(Kind kind, const std::vector<Factor>& factors,
 
 struct Pruned {
   Graph graph;
-  PoseIndex poses;
-  Lists<> odometry;
+  graph::PoseIndex poses;
+  graph::Lists<> odometry;
   std::vector<bool> keyframe;
 };
-Pruned analyzed(const std::string& text, const KeyframeRule& rule) {
+Pruned analyzed(const std::string& text, const prune::KeyframeRule& rule) {
   Pruned p{graph_of(text), {}, {}, {}};
-  p.poses = pose_index(p.graph);
-  p.odometry = odometry_steps(p.graph, p.poses);
-  p.keyframe = choose_keyframes(p.graph, p.poses, p.odometry, rule);
+  p.poses = graph::pose_index(p.graph);
+  p.odometry = prune::odometry_steps(p.graph, p.poses);
+  p.keyframe = prune::choose_keyframes(p.graph, p.poses, p.odometry, rule);
   return p;
 }
 
-std::string written(const Graph& graph, const Keyframing& kf) {
-  Changes changes;
+std::string written(const Graph& graph, const prune::Keyframing& kf) {
+  formats::Changes changes;
   changes.drop_vertex = kf.removal.vertex;
   changes.drop_edge = kf.removal.edge;
   changes.late_edge = kf.late;
   changes.edge_line = [&](Index e) -> std::optional<std::string> {
-    return kf.rewritten[e] ? std::optional(rewritten_line(kf, e)) : std::nullopt;
+    return kf.rewritten[e] ? std::optional(prune::rewritten_line(kf, e)) : std::nullopt;
   };
   StringSink sink;
-  write_changed(graph, std::move(changes), "", sink);
+  formats::write_changed(graph, std::move(changes), "", sink);
   return sink.text;
 }
 
@@ -221,8 +222,8 @@ void append_way(const Pruned& p, Index a, Index b, std::vector<Factor>& factors,
     const int here = static_cast<int>(poses.size()) - 1;
     for (Index e : p.odometry[std::max(k, next)]) {
       const bool forward = p.graph.edge(e)[0] == p.poses.pose[k];
-      factors.push_back(
-          {forward ? here : here + 1, forward ? here + 1 : here, motion(p.graph, e).value()});
+      factors.push_back({forward ? here : here + 1, forward ? here + 1 : here,
+                         prune::motion(p.graph, e).value()});
     }
     poses.push_back(truth[next]);
   }
@@ -264,7 +265,7 @@ std::string random_landmark_graph(Random& random) {
 
 bool has_pose(const Graph& graph, Index e) {
   for (Index v : graph.edge(e)) {
-    if (graph.role(v) == Role::pose) return true;
+    if (graph.role(v) == graph::Role::pose) return true;
   }
   return false;
 }
@@ -275,19 +276,19 @@ TEST_CASE("candidates are observations or loop closures, never odometry", "[prun
   Random random(1);
   for (int trial = 0; trial < 100; ++trial) {
     const Graph graph = graph_of(random_landmark_graph(random));
-    const PoseIndex poses = pose_index(graph);
-    CHECK(natural_candidates(graph) == Candidates::observations);
-    const auto roles = edge_roles(graph, poses);
+    const graph::PoseIndex poses = graph::pose_index(graph);
+    CHECK(prune::natural_candidates(graph) == prune::Candidates::observations);
+    const auto roles = graph::edge_roles(graph, poses);
     std::vector<Index> observations, loops, both;
     for (Index e = 0; e < graph.edges(); ++e) {
-      if (roles[e] == EdgeRole::observation) observations.push_back(e);
-      if (roles[e] == EdgeRole::loop_closure) loops.push_back(e);
-      if (roles[e] == EdgeRole::observation || roles[e] == EdgeRole::loop_closure)
+      if (roles[e] == graph::EdgeRole::observation) observations.push_back(e);
+      if (roles[e] == graph::EdgeRole::loop_closure) loops.push_back(e);
+      if (roles[e] == graph::EdgeRole::observation || roles[e] == graph::EdgeRole::loop_closure)
         both.push_back(e);
     }
-    CHECK(candidate_edges(graph, poses, Candidates::observations) == observations);
-    CHECK(candidate_edges(graph, poses, Candidates::loops) == loops);
-    CHECK(candidate_edges(graph, poses, Candidates::both) == both);
+    CHECK(prune::candidate_edges(graph, poses, prune::Candidates::observations) == observations);
+    CHECK(prune::candidate_edges(graph, poses, prune::Candidates::loops) == loops);
+    CHECK(prune::candidate_edges(graph, poses, prune::Candidates::both) == both);
   }
 }
 
@@ -295,15 +296,16 @@ TEST_CASE("the sweep leaves no landmark with too few observations, and takes no 
   Random random(2);
   for (int trial = 0; trial < 300; ++trial) {
     const Graph graph = graph_of(random_landmark_graph(random));
-    const PoseIndex poses = pose_index(graph);
-    Removal removal = nothing_removed(graph);
+    const graph::PoseIndex poses = graph::pose_index(graph);
+    prune::Removal removal = prune::nothing_removed(graph);
     for (Index e = 0; e < graph.edges(); ++e) {
       removal.edge[e] = has_pose(graph, e) && graph.edge(e).size() > 1 &&
-                        edge_role(graph, poses, e) != EdgeRole::odometry && draw(random, 0, 1) == 0;
+                        graph::edge_role(graph, poses, e) != graph::EdgeRole::odometry &&
+                        draw(random, 0, 1) == 0;
     }
     const Index min_obs = draw(random, 1, 4);
     // The definition: one landmark at a time, counting anew.
-    Removal expected = removal;
+    prune::Removal expected = removal;
     for (bool changed = true; changed;) {
       changed = false;
       for (Index v = 0; v < graph.vertices(); ++v) {
@@ -315,7 +317,7 @@ TEST_CASE("the sweep leaves no landmark with too few observations, and takes no 
             after += u == v && !expected.edge[e];
           }
         }
-        if (graph.role(v) != Role::landmark || expected.vertex[v] || before == 0 ||
+        if (graph.role(v) != graph::Role::landmark || expected.vertex[v] || before == 0 ||
             after >= min_obs)
           continue;
         changed = expected.vertex[v] = true;
@@ -324,7 +326,7 @@ TEST_CASE("the sweep leaves no landmark with too few observations, and takes no 
         }
       }
     }
-    sweep_landmarks(graph, poses, min_obs, removal);
+    prune::sweep_landmarks(graph, poses, min_obs, removal);
     CHECK(removal.vertex == expected.vertex);
     CHECK(removal.edge == expected.edge);
   }
@@ -334,14 +336,14 @@ TEST_CASE("decimation is algorithm 1", "[prune]") {
   Random random(3);
   for (int trial = 0; trial < 200; ++trial) {
     const Graph graph = graph_of(random_landmark_graph(random));
-    const PoseIndex poses = pose_index(graph);
-    const auto candidates = candidate_edges(graph, poses, Candidates::both);
+    const graph::PoseIndex poses = graph::pose_index(graph);
+    const auto candidates = prune::candidate_edges(graph, poses, prune::Candidates::both);
     const Index rate = draw(random, 1, 5);
     std::map<Index, Index> first;  // of every landmark, or earlier pose of a loop closure
     const auto observed = [&](Index e) {
       const auto ends = graph.edge(e);
-      if (edge_role(graph, poses, e) == EdgeRole::observation)
-        return graph.role(ends[0]) == Role::landmark ? ends[0] : ends[1];
+      if (graph::edge_role(graph, poses, e) == graph::EdgeRole::observation)
+        return graph.role(ends[0]) == graph::Role::landmark ? ends[0] : ends[1];
       return std::min(ends[0], ends[1]);
     };
     const auto observer = [&](Index e) {
@@ -353,16 +355,20 @@ TEST_CASE("decimation is algorithm 1", "[prune]") {
       const auto it = first.emplace(observed(e), observer(e)).first;
       it->second = std::min(it->second, observer(e));
     }
-    const auto by_first = decimate(graph, poses, candidates, rate, DecimationOffset::first, 0);
-    const auto aligned = decimate(graph, poses, candidates, rate, DecimationOffset::aligned, 0);
+    const auto by_first =
+        prune::decimate(graph, poses, candidates, rate, prune::DecimationOffset::first, 0);
+    const auto aligned =
+        prune::decimate(graph, poses, candidates, rate, prune::DecimationOffset::aligned, 0);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const Index e = candidates[i];
       CHECK(by_first[i] == (observer(e) % rate == first[observed(e)] % rate));
       CHECK(aligned[i] == (observer(e) % rate == 0));
     }
     // Random offsets: the kept observers of one landmark agree mod rate, and so do the seeds.
-    const auto drawn = decimate(graph, poses, candidates, rate, DecimationOffset::random, 5);
-    CHECK(drawn == decimate(graph, poses, candidates, rate, DecimationOffset::random, 5));
+    const auto drawn =
+        prune::decimate(graph, poses, candidates, rate, prune::DecimationOffset::random, 5);
+    CHECK(drawn ==
+          prune::decimate(graph, poses, candidates, rate, prune::DecimationOffset::random, 5));
     std::map<Index, std::set<Index>> offsets;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (drawn[i]) offsets[observed(candidates[i])].insert(observer(candidates[i]) % rate);
@@ -374,7 +380,7 @@ TEST_CASE("decimation is algorithm 1", "[prune]") {
 TEST_CASE("every subset is as likely as another", "[prune]") {
   std::map<std::vector<bool>, int> seen;
   constexpr int draws = 20000;
-  for (int seed = 0; seed < draws; ++seed) ++seen[sample(6, 3, seed)];
+  for (int seed = 0; seed < draws; ++seed) ++seen[prune::sample(6, 3, seed)];
   REQUIRE(seen.size() == 20);
   double chi2 = 0;
   for (const auto& [subset, count] : seen) {
@@ -382,9 +388,9 @@ TEST_CASE("every subset is as likely as another", "[prune]") {
     chi2 += (count - draws / 20.0) * (count - draws / 20.0) / (draws / 20.0);
   }
   CHECK(chi2 < 43.8);  // 19 degrees of freedom, one in a thousand
-  CHECK(sample(4, 9, 1) == std::vector<bool>(4, true));
-  CHECK(sample(4, 0, 1) == std::vector<bool>(4, false));
-  CHECK(sample(0, 3, 1).empty());
+  CHECK(prune::sample(4, 9, 1) == std::vector<bool>(4, true));
+  CHECK(prune::sample(4, 0, 1) == std::vector<bool>(4, false));
+  CHECK(prune::sample(0, 3, 1).empty());
 }
 
 TEST_CASE("a keyframe every so many poses of a segment", "[prune]") {
@@ -425,14 +431,14 @@ TEST_CASE("from exact measurements keyframing makes exact ones", "[prune]") {
   for (int trial = 0; trial < 90; ++trial) {
     const World world = random_world(random, kinds[trial % 3], draw(random, 2, 25), 0);
     const Pruned p = analyzed(world.vertices + world.edges, {draw(random, 2, 6), 0, 0});
-    const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
     const Graph pruned = graph_of(written(p.graph, kf));
     CHECK(pruned.vertices() == std::count(p.keyframe.begin(), p.keyframe.end(), true));
     for (Index e = 0; e < pruned.edges(); ++e) {
       const auto ends = pruned.edge(e);
       const SE3& a = world.pose[pruned.id[ends[0]] / 2];
       const SE3& b = world.pose[pruned.id[ends[1]] / 2];
-      CHECK(residual(motion(pruned, e).value(), a, b).norm() < 1e-9);
+      CHECK(residual(prune::motion(pruned, e).value(), a, b).norm() < 1e-9);
     }
   }
 }
@@ -443,26 +449,26 @@ TEST_CASE("a composed edge says what the odometry said: mean and information", "
   for (int trial = 0; trial < 60; ++trial) {
     const World world = random_world(random, kinds[trial % 3], draw(random, 4, 12), 0.01);
     const Pruned p = analyzed(world.vertices + world.edges, {draw(random, 2, 5), 0, 0});
-    const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
     for (Index e = 0; e < p.graph.edges(); ++e) {
       if (!kf.rewritten[e]) continue;
       const auto ends = p.graph.edge(e);
-      const bool loop = edge_role(p.graph, p.poses, e) == EdgeRole::loop_closure;
-      const Graph line = graph_of(world.vertices + rewritten_line(kf, e));
+      const bool loop = graph::edge_role(p.graph, p.poses, e) == graph::EdgeRole::loop_closure;
+      const Graph line = graph_of(world.vertices + prune::rewritten_line(kf, e));
       const Index a = line.edge(0)[0], b = line.edge(0)[1];  // pose indices, as vertices
       std::vector<SE3> poses{world.pose[a]};
       std::vector<Factor> factors;
       if (loop) {
         append_way(p, a, p.poses.index[ends[0]], factors, poses, world.pose);
         const int here = static_cast<int>(poses.size());
-        factors.push_back({here - 1, here, motion(p.graph, e).value()});
+        factors.push_back({here - 1, here, prune::motion(p.graph, e).value()});
         poses.push_back(world.pose[p.poses.index[ends[1]]]);
         append_way(p, p.poses.index[ends[1]], b, factors, poses, world.pose);
       } else {
         append_way(p, a, b, factors, poses, world.pose);
       }
       const MatrixXd marginal = solve_and_marginalize(world.kind, factors, poses);
-      const std::vector<Factor> composed{{0, 1, motion(line, 0).value()}};
+      const std::vector<Factor> composed{{0, 1, prune::motion(line, 0).value()}};
       const std::vector<SE3> ends_only{poses.front(), poses.back()};
       const int d = dof(world.kind);
       const MatrixXd information =
@@ -482,10 +488,11 @@ TEST_CASE("without noise in parallel odometry the composed information is exact"
     const Kind kind = kinds[trial % 3];
     const World world = random_world(random, kind, 8, 0);
     const Pruned p = analyzed(world.vertices + world.edges, {4, 0, 0});
-    const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
     for (Index e = 0; e < p.graph.edges(); ++e) {
-      if (!kf.rewritten[e] || edge_role(p.graph, p.poses, e) != EdgeRole::odometry) continue;
-      const Graph line = graph_of(world.vertices + rewritten_line(kf, e));
+      if (!kf.rewritten[e] || graph::edge_role(p.graph, p.poses, e) != graph::EdgeRole::odometry)
+        continue;
+      const Graph line = graph_of(world.vertices + prune::rewritten_line(kf, e));
       const Index a = line.edge(0)[0], b = line.edge(0)[1];
       std::vector<SE3> poses{world.pose[a]};
       std::vector<Factor> factors;
@@ -493,7 +500,7 @@ TEST_CASE("without noise in parallel odometry the composed information is exact"
       const MatrixXd marginal = solve_and_marginalize(kind, factors, poses);
       const int d = dof(kind);
       const MatrixXd information =
-          linearize(kind, {{0, 1, motion(line, 0).value()}}, {poses.front(), poses.back()})
+          linearize(kind, {{0, 1, prune::motion(line, 0).value()}}, {poses.front(), poses.back()})
               .first.bottomRightCorner(d, d);
       CHECK((information - marginal).norm() < 1e-5 * marginal.norm());
     }
@@ -511,15 +518,16 @@ TEST_CASE("long ways to keyframes are composed from milestones", "[prune]") {
   for (int k = 0; k < 50; ++k)
     add_motion(random, world, draw(random, 0, 200), draw(random, 300, 499), 0);
   const Pruned p = analyzed(world.edges, {300, 0, 0});
-  Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+  prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
   CHECK(kf.milestones.size() >= 4);
-  Keyframing plain = kf;
+  prune::Keyframing plain = kf;
   plain.milestones.clear();
   for (Index e = 0; e < p.graph.edges(); ++e) {
     if (!kf.rewritten[e]) continue;
-    const Graph fast = graph_of(rewritten_line(kf, e)), slow = graph_of(rewritten_line(plain, e));
-    const auto a = std::get<UncertainSE2>(*motion(fast, 0));
-    const auto b = std::get<UncertainSE2>(*motion(slow, 0));
+    const Graph fast = graph_of(prune::rewritten_line(kf, e)),
+                slow = graph_of(prune::rewritten_line(plain, e));
+    const auto a = std::get<geometry::UncertainSE2>(*prune::motion(fast, 0));
+    const auto b = std::get<geometry::UncertainSE2>(*prune::motion(slow, 0));
     CHECK((a.information - b.information).norm() < 1e-9 * b.information.norm());
     CHECK(log(between(a.mean, b.mean)).norm() < 1e-9);
   }
@@ -538,17 +546,19 @@ TEST_CASE("pruning and reordering commute", "[prune]") {
     std::multiset<std::string> results[2];
     for (int k : {0, 1}) {
       const Pruned p = analyzed((k ? shuffled : world.vertices) + world.edges, {3, 0, 0});
-      const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+      const prune::Keyframing kf =
+          prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
       std::istringstream out(written(p.graph, kf));
       for (std::string line; std::getline(out, line);) results[k].insert(line);
     }
     CHECK(results[0] == results[1]);
     for (int k : {0, 1}) {
       const Graph graph = graph_of((k ? shuffled : world.vertices) + world.edges);
-      const PoseIndex poses = pose_index(graph);
-      const auto candidates = candidate_edges(graph, poses, Candidates::loops);
+      const graph::PoseIndex poses = graph::pose_index(graph);
+      const auto candidates = prune::candidate_edges(graph, poses, prune::Candidates::loops);
       results[k].clear();
-      for (bool kept : decimate(graph, poses, candidates, 3, DecimationOffset::first, 0))
+      for (bool kept :
+           prune::decimate(graph, poses, candidates, 3, prune::DecimationOffset::first, 0))
         results[k].insert(kept ? "kept" : "gone");
     }
     CHECK(results[0] == results[1]);
@@ -564,14 +574,14 @@ TEST_CASE("a moved line that would name a vertex too early goes to the end", "[p
     if (k == 7) text += "EDGE_SE2 0 7 7 0 0" + information;
   }
   const Pruned p = analyzed(text, {4, 0, 0});
-  const Keyframing kf = keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+  const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
   std::istringstream lines(written(p.graph, kf));
   std::vector<std::string> names;
   for (std::string line; std::getline(lines, line);) {
     std::string_view rest = line;
-    std::string name(next_word(rest));
+    std::string name(text::next_word(rest));
     for (int ids = name == "VERTEX_SE2" ? 1 : 2; ids > 0; --ids)
-      name += " " + std::string(next_word(rest));
+      name += " " + std::string(text::next_word(rest));
     names.push_back(name);
   }
   CHECK(names == std::vector<std::string>{"VERTEX_SE2 0", "VERTEX_SE2 4", "EDGE_SE2 0 4",
@@ -586,11 +596,11 @@ TEST_CASE("what keyframing cannot compose it names", "[prune]") {
                                 "EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n",
                             {2, 0, 0});
   try {
-    keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
     FAIL("composed EDGE_SE2_OFFSET");
-  } catch (const Error& error) {
-    CHECK(error.fault == Fault::input);
-    CHECK(message(error) ==
+  } catch (const text::Error& error) {
+    CHECK(error.fault == text::Fault::input);
+    CHECK(text::message(error) ==
           "test.g2o:5: cannot compose odometry of type EDGE_SE2_OFFSET across dropped poses");
   }
 }

@@ -14,7 +14,7 @@ namespace {
 
 using sg::Index;
 
-struct StringSink final : sg::Sink {
+struct StringSink final : sg::formats::Sink {
   std::string text;
   void write(std::string_view bytes) override { text += bytes; }
 };
@@ -30,7 +30,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 bool is_vertex_or_data(std::string_view line) {
-  const auto tag = sg::next_word(line);
+  const auto tag = sg::text::next_word(line);
   return tag.starts_with("VERTEX") || tag == "ROBOTLASER1";
 }
 
@@ -62,19 +62,19 @@ TEST_CASE("reordered VERTEX lines change places and nothing else", "[reorder]") 
     const Index n = draw(random, 2, 21);
     const std::string text = odd_file(random, n);
     const sg::Graph graph = graph_of(text);
-    const sg::Order order = shuffled(random, n);
-    sg::Changes changes = sg::unchanged(graph);
-    changes.edits = sg::reordered(graph, order);
+    const sg::graph::Order order = shuffled(random, n);
+    sg::formats::Changes changes = sg::formats::unchanged(graph);
+    changes.edits = sg::formats::reordered(graph, order);
     StringSink sink;
-    sg::write_changed(graph, std::move(changes), "", sink);
+    sg::formats::write_changed(graph, std::move(changes), "", sink);
 
     const sg::Graph result = graph_of(sink.text);
-    CHECK(sg::file_order(result) == order);
+    CHECK(sg::graph::file_order(result) == order);
     CHECK(result.id == graph.id);
     CHECK(sink.text.size() == text.size());
     for (Index v = 0; v < n; ++v) {
       const auto lines = [&](const sg::Graph& g) {
-        const auto [begin, end] = sg::vertex_extent(g, v);
+        const auto [begin, end] = sg::formats::vertex_extent(g, v);
         return lines_of(std::string(g.text.view.substr(begin, end - begin)));
       };
       CHECK(lines(result) == lines(graph));
@@ -89,17 +89,18 @@ TEST_CASE("reordered VERTEX lines change places and nothing else", "[reorder]") 
 
 TEST_CASE("an order that is the file's own edits nothing", "[reorder]") {
   Random random(6);
-  const sg::Graph graph = sg::read_graph_text(sg::text_of(odd_file(random, 9)), "test");
-  CHECK(sg::reordered(graph, sg::file_order(graph)).empty());
+  const sg::Graph graph =
+      sg::formats::read_graph_text(sg::text::text_of(odd_file(random, 9)), "test");
+  CHECK(sg::formats::reordered(graph, sg::graph::file_order(graph)).empty());
 }
 
 TEST_CASE("sg-order comments are found and the last one counts", "[reorder]") {
-  const sg::Graph graph = sg::read_graph_text(
-      sg::text_of("# sg-order: amd\nVERTEX_SE2 1 0 0 0\n  # sg-order: metis with care\n"
-                  "# sg-order -m id\n# sg-ordered: no\n"),
+  const sg::Graph graph = sg::formats::read_graph_text(
+      sg::text::text_of("# sg-order: amd\nVERTEX_SE2 1 0 0 0\n  # sg-order: metis with care\n"
+                        "# sg-order -m id\n# sg-ordered: no\n"),
       "test");
   CHECK(graph.order_method == "metis");
   REQUIRE(graph.order_lines.size() == 2);
-  CHECK(sg::line_at(graph, graph.order_lines[0]) == "# sg-order: amd");
-  CHECK(sg::line_number(graph, graph.order_lines[1]) == 3);
+  CHECK(sg::graph::line_at(graph, graph.order_lines[0]) == "# sg-order: amd");
+  CHECK(sg::graph::line_number(graph, graph.order_lines[1]) == 3);
 }

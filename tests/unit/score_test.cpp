@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
-constexpr auto unit = TreeWeights::unit;
+constexpr auto unit = trees::TreeWeights::unit;
 
 struct Edge {
   int u, v;
@@ -63,16 +63,16 @@ std::vector<Edge> complete(int n) {
 }
 
 double log_det(const Graph& graph) {
-  const Problem problem = make_problem(graph);
-  const Order order = elimination_order("colamd", problem.variables.pattern);
-  return log_det_information(problem, file_values(problem), order);
+  const factor::Problem problem = factor::make_problem(graph);
+  const graph::Order order = order::elimination_order("colamd", problem.variables.pattern);
+  return score::log_det_information(problem, factor::file_values(problem), order);
 }
 
-Trajectory flat(const std::vector<std::array<double, 3>>& poses) {
-  Trajectory result;
+score::Trajectory flat(const std::vector<std::array<double, 3>>& poses) {
+  score::Trajectory result;
   for (const auto& [x, y, theta] : poses) {
     result.id.push_back(static_cast<Id>(result.id.size()));
-    result.pose.push_back({exp_so3({0, 0, theta}), {x, y, 0}});
+    result.pose.push_back({geometry::exp_so3({0, 0, theta}), {x, y, 0}});
   }
   return result;
 }
@@ -80,53 +80,59 @@ Trajectory flat(const std::vector<std::array<double, 3>>& poses) {
 }  // namespace
 
 TEST_CASE("spanning trees of known graphs", "[score]") {
-  CHECK(log_trees(graph_of(1, {}), unit) == 0);
-  CHECK(log_trees(graph_of(2, {}), unit) == -infinity);
-  CHECK(log_trees(graph_of(4, {{0, 1}, {2, 3}}), unit) == -infinity);
+  CHECK(trees::log_trees(graph_of(1, {}), unit) == 0);
+  CHECK(trees::log_trees(graph_of(2, {}), unit) == -infinity);
+  CHECK(trees::log_trees(graph_of(4, {{0, 1}, {2, 3}}), unit) == -infinity);
   for (int n = 2; n <= 30; ++n) {
-    CHECK(log_trees(graph_of(n, path(n)), unit) == Approx(0).margin(1e-9));
-    CHECK(log_trees(graph_of(n, complete(n)), unit) == Approx((n - 2) * std::log(n)).margin(1e-9));
-    if (n > 2) CHECK(log_trees(graph_of(n, cycle(n)), unit) == Approx(std::log(n)));
+    CHECK(trees::log_trees(graph_of(n, path(n)), unit) == Approx(0).margin(1e-9));
+    CHECK(trees::log_trees(graph_of(n, complete(n)), unit) ==
+          Approx((n - 2) * std::log(n)).margin(1e-9));
+    if (n > 2) CHECK(trees::log_trees(graph_of(n, cycle(n)), unit) == Approx(std::log(n)));
   }
 }
 
 TEST_CASE("spanning trees weigh their edges", "[score]") {
   const double a = 1e-3, b = 1e6, c = 40, d = 2, e = 3, f = 5;
   const Graph triangle = graph_of(3, {{0, 1, a, d}, {1, 2, b, e}, {2, 0, c, f}});
-  CHECK(log_trees(triangle, TreeWeights::translation) == Approx(std::log(a * b + b * c + c * a)));
-  CHECK(log_trees(triangle, TreeWeights::rotation) == Approx(std::log(d * e + e * f + f * d)));
-  CHECK(log_trees(triangle, TreeWeights::dopt) ==
+  CHECK(trees::log_trees(triangle, trees::TreeWeights::translation) ==
+        Approx(std::log(a * b + b * c + c * a)));
+  CHECK(trees::log_trees(triangle, trees::TreeWeights::rotation) ==
+        Approx(std::log(d * e + e * f + f * d)));
+  CHECK(trees::log_trees(triangle, trees::TreeWeights::dopt) ==
         Approx(2 * std::log(a * b + b * c + c * a) + std::log(d * e + e * f + f * d)));
 }
 
 TEST_CASE("fixed vertices are one node, points do not rotate", "[score]") {
-  CHECK(log_trees(graph_of(text_of_graph(4, cycle(4)) + "FIX 0 2\n"), unit) == Approx(std::log(4)));
+  CHECK(trees::log_trees(graph_of(text_of_graph(4, cycle(4)) + "FIX 0 2\n"), unit) ==
+        Approx(std::log(4)));
   const Graph point = graph_of(
       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_XY 2 0 0\n"
       "EDGE_SE2 0 1 0 0 0 7 0 0 7 0 5\nEDGE_SE2_XY 0 2 0 0 3 0 3\n");
-  CHECK(log_trees(point, unit) == Approx(0).margin(1e-12));
-  CHECK(log_trees(point, TreeWeights::translation) == Approx(std::log(21)));
-  CHECK(log_trees(point, TreeWeights::rotation) == Approx(std::log(5)));
-  CHECK(log_trees(point, TreeWeights::dopt) == Approx(2 * std::log(21) + std::log(5)));
-  CHECK(average_observations(point) == Approx(1));
-  CHECK(!average_observations(graph_of(2, path(2))));
+  CHECK(trees::log_trees(point, unit) == Approx(0).margin(1e-12));
+  CHECK(trees::log_trees(point, trees::TreeWeights::translation) == Approx(std::log(21)));
+  CHECK(trees::log_trees(point, trees::TreeWeights::rotation) == Approx(std::log(5)));
+  CHECK(trees::log_trees(point, trees::TreeWeights::dopt) ==
+        Approx(2 * std::log(21) + std::log(5)));
+  CHECK(graph::average_observations(point) == Approx(1));
+  CHECK(!graph::average_observations(graph_of(2, path(2))));
 }
 
 TEST_CASE("algebraic connectivity of known graphs", "[score]") {
-  CHECK(!algebraic_connectivity(graph_of(1, {}), unit));
-  CHECK(algebraic_connectivity(graph_of(2, {}), unit) == 0);
-  CHECK(algebraic_connectivity(graph_of(4, {{0, 1}, {2, 3}}), unit) == 0);
-  CHECK(!algebraic_connectivity(graph_of(2, path(2)), TreeWeights::dopt));
+  CHECK(!trees::algebraic_connectivity(graph_of(1, {}), unit));
+  CHECK(trees::algebraic_connectivity(graph_of(2, {}), unit) == 0);
+  CHECK(trees::algebraic_connectivity(graph_of(4, {{0, 1}, {2, 3}}), unit) == 0);
+  CHECK(!trees::algebraic_connectivity(graph_of(2, path(2)), trees::TreeWeights::dopt));
   for (int n : {2, 3, 10, 64, 65, 100, 700}) {
-    CHECK(*algebraic_connectivity(graph_of(n, path(n)), unit) ==
+    CHECK(*trees::algebraic_connectivity(graph_of(n, path(n)), unit) ==
           Approx(2 - 2 * std::cos(pi / n)).epsilon(1e-8));
   }
   for (int n : {3, 10, 65, 300}) {  // a double eigenvalue
-    CHECK(*algebraic_connectivity(graph_of(n, cycle(n)), unit) ==
+    CHECK(*trees::algebraic_connectivity(graph_of(n, cycle(n)), unit) ==
           Approx(2 - 2 * std::cos(2 * pi / n)).epsilon(1e-8));
   }
   for (int n : {2, 5, 70}) {
-    CHECK(*algebraic_connectivity(graph_of(n, complete(n)), unit) == Approx(n).epsilon(1e-8));
+    CHECK(*trees::algebraic_connectivity(graph_of(n, complete(n)), unit) ==
+          Approx(n).epsilon(1e-8));
   }
 }
 
@@ -146,7 +152,7 @@ TEST_CASE("the iteration for connectivity gives what dense eigenvalues give", "[
       laplacian(e.u, e.v) -= e.translation, laplacian(e.v, e.u) -= e.translation;
     }
     const double expected = Eigen::SelfAdjointEigenSolver<MatrixXd>(laplacian).eigenvalues()[1];
-    CHECK(*algebraic_connectivity(graph_of(n, edges), TreeWeights::translation) ==
+    CHECK(*trees::algebraic_connectivity(graph_of(n, edges), trees::TreeWeights::translation) ==
           Approx(expected).epsilon(1e-6));
   }
 }
@@ -172,9 +178,9 @@ TEST_CASE("D-optimality is the log determinant of the dense system", "[score]") 
     }
     const std::string measured = text_of_graph(n, edges);
     const Graph graph = graph_of(text + measured.substr(measured.find("EDGE")));
-    const Problem problem = make_problem(graph);
-    LinearSystem system = make_linear_system(problem);
-    linearize(problem, file_values(problem), {}, system);
+    const factor::Problem problem = factor::make_problem(graph);
+    factor::LinearSystem system = factor::make_linear_system(problem);
+    factor::linearize(problem, factor::file_values(problem), {}, system);
     MatrixXd information = MatrixXd::Zero(3 * n, 3 * n);
     for (Index r = 0; r < system.pattern->rows.size(); ++r) {
       const auto row = system.pattern->rows[r];
@@ -193,30 +199,32 @@ TEST_CASE("D-optimality is the log determinant of the dense system", "[score]") 
 }
 
 TEST_CASE("trajectory errors worked out by hand", "[score]") {
-  const Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  const Trajectory bent = flat({{0, 0, 0}, {1, 0, 0}, {2, 3, 0}});
-  const auto plain = trajectory_error(bent, line, Alignment::none);
+  const score::Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  const score::Trajectory bent = flat({{0, 0, 0}, {1, 0, 0}, {2, 3, 0}});
+  const auto plain = score::trajectory_error(bent, line, score::Alignment::none);
   CHECK(plain.matched == 3);
   CHECK(*plain.ate == Approx(std::sqrt(9.0 / 3)));
   CHECK(*plain.rpe == Approx(std::sqrt(9.0 / 2)));  // errors of the two steps: 0 and (0, 3)
 
   // Turned by 90 degrees and moved; the relative motions are the same.
-  const Trajectory moved = flat({{5, 1, pi / 2}, {5, 2, pi / 2}, {5, 3, pi / 2}});
-  CHECK(*trajectory_error(moved, line, Alignment::se).ate == Approx(0).margin(1e-12));
-  CHECK(*trajectory_error(moved, line, Alignment::none).rpe == Approx(0).margin(1e-12));
+  const score::Trajectory moved = flat({{5, 1, pi / 2}, {5, 2, pi / 2}, {5, 3, pi / 2}});
+  CHECK(*score::trajectory_error(moved, line, score::Alignment::se).ate == Approx(0).margin(1e-12));
+  CHECK(*score::trajectory_error(moved, line, score::Alignment::none).rpe ==
+        Approx(0).margin(1e-12));
   // Distances to the line: (5,1) (4,2) (3,3).
-  CHECK(*trajectory_error(moved, line, Alignment::none).ate ==
+  CHECK(*score::trajectory_error(moved, line, score::Alignment::none).ate ==
         Approx(std::sqrt((26 + 20 + 18) / 3.0)));
 
   // A cross stretched in x: by symmetry the best rotation is none.
-  const Trajectory cross = flat({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}});
-  const Trajectory wide = flat({{2, 0, 0}, {-2, 0, 0}, {0, 1, 0}, {0, -1, 0}});
-  CHECK(*trajectory_error(wide, cross, Alignment::se).ate == Approx(std::sqrt(0.5)));
+  const score::Trajectory cross = flat({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}});
+  const score::Trajectory wide = flat({{2, 0, 0}, {-2, 0, 0}, {0, 1, 0}, {0, -1, 0}});
+  CHECK(*score::trajectory_error(wide, cross, score::Alignment::se).ate == Approx(std::sqrt(0.5)));
   // Scale 6/10: residuals 0.2, 0.2, 0.4, 0.4.
-  CHECK(*trajectory_error(wide, cross, Alignment::sim).ate == Approx(std::sqrt(0.1)));
+  CHECK(*score::trajectory_error(wide, cross, score::Alignment::sim).ate == Approx(std::sqrt(0.1)));
   // Steps of the wide one, scaled: (-2.4, 0), (1.2, 0.6), (0, -1.2); of the cross: (-2, 0), (1, 1),
   // (0, -2). Differences squared: 0.16, 0.04 + 0.16, 0.64.
-  CHECK(*trajectory_error(wide, cross, Alignment::sim).rpe == Approx(std::sqrt(1.0 / 3)));
+  CHECK(*score::trajectory_error(wide, cross, score::Alignment::sim).rpe ==
+        Approx(std::sqrt(1.0 / 3)));
 }
 
 TEST_CASE("alignment undoes any similarity, in the plane and in space", "[score]") {
@@ -226,9 +234,9 @@ TEST_CASE("alignment undoes any similarity, in the plane and in space", "[score]
     const auto any = [&] {
       Vector6d v = Vector6d::NullaryExpr([&] { return uniform(random, -1.5, 1.5); });
       if (planar) v[2] = v[3] = v[4] = 0;
-      return exp(v);
+      return geometry::exp(v);
     };
-    Trajectory reference, estimate;
+    score::Trajectory reference, estimate;
     const SE3 motion = any();
     const double scale = trial % 4 < 2 ? 1 : 2.5;
     for (Id id = 0; id < 6; ++id) {
@@ -238,48 +246,51 @@ TEST_CASE("alignment undoes any similarity, in the plane and in space", "[score]
       estimate.pose.push_back(compose(motion, reference.pose.back()));
       estimate.pose.back().t *= scale;
     }
-    const Alignment kind = scale == 1 ? Alignment::se : Alignment::sim;
-    const auto error = trajectory_error(estimate, reference, kind);
+    const score::Alignment kind = scale == 1 ? score::Alignment::se : score::Alignment::sim;
+    const auto error = score::trajectory_error(estimate, reference, kind);
     CHECK(*error.ate < 1e-9);
     CHECK(*error.rpe < 1e-9);
   }
 }
 
 TEST_CASE("poses are matched by id", "[score]") {
-  Trajectory sparse = flat({{0, 0, 0}, {2, 0, 0}});
+  score::Trajectory sparse = flat({{0, 0, 0}, {2, 0, 0}});
   sparse.id = {0, 2};
-  const Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
-  const auto error = trajectory_error(sparse, line, Alignment::se);
+  const score::Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
+  const auto error = score::trajectory_error(sparse, line, score::Alignment::se);
   CHECK(error.matched == 2);
   CHECK(*error.ate == Approx(0).margin(1e-12));
   CHECK(*error.rpe == Approx(0).margin(1e-12));
   sparse.id = {7, 9};
-  CHECK(trajectory_error(sparse, line, Alignment::sim).matched == 0);
-  CHECK(!trajectory_error(sparse, line, Alignment::sim).ate);
+  CHECK(score::trajectory_error(sparse, line, score::Alignment::sim).matched == 0);
+  CHECK(!score::trajectory_error(sparse, line, score::Alignment::sim).ate);
   sparse.id = {3, 9};
-  for (const Alignment kind : {Alignment::none, Alignment::se, Alignment::sim}) {
-    CHECK(trajectory_error(sparse, line, kind).ate.has_value());
-    CHECK(!trajectory_error(sparse, line, kind).rpe);
+  for (const score::Alignment kind :
+       {score::Alignment::none, score::Alignment::se, score::Alignment::sim}) {
+    CHECK(score::trajectory_error(sparse, line, kind).ate.has_value());
+    CHECK(!score::trajectory_error(sparse, line, kind).rpe);
   }
-  CHECK(*trajectory_error(sparse, line, Alignment::sim).ate == Approx(0).margin(1e-12));
+  CHECK(*score::trajectory_error(sparse, line, score::Alignment::sim).ate ==
+        Approx(0).margin(1e-12));
 }
 
 TEST_CASE("trajectories come from graphs and from TUM files", "[score]") {
   const Graph graph = graph_of("VERTEX_SE2 4 1 2 0.5\nVERTEX_XY 5 0 0\n");
-  const Trajectory planar = trajectory(graph);
+  const score::Trajectory planar = score::trajectory(graph);
   REQUIRE(planar.id == std::vector<Id>{4});
   CHECK(planar.pose[0].t == Eigen::Vector3d(1, 2, 0));
-  CHECK(log_so3(planar.pose[0].q).z() == Approx(0.5));
-  const Trajectory composed = trajectory(graph_of("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"));
+  CHECK(geometry::log_so3(planar.pose[0].q).z() == Approx(0.5));
+  const score::Trajectory composed =
+      score::trajectory(graph_of("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"));
   CHECK(composed.pose[1].t == Eigen::Vector3d(1, 0, 0));
 
-  CHECK(looks_like_tum("# a comment\n\n 12 0 0 0 0 0 0 1\n"));
-  CHECK(!looks_like_tum("VERTEX_SE2 0 0 0 0\n"));
-  const auto poses = read_tum("7.000 1 2 3 0 0 0 1\r\n# x\n2 4 5 6 0 0 0 1", "t.tum");
+  CHECK(formats::looks_like_tum("# a comment\n\n 12 0 0 0 0 0 0 1\n"));
+  CHECK(!formats::looks_like_tum("VERTEX_SE2 0 0 0 0\n"));
+  const auto poses = formats::read_tum("7.000 1 2 3 0 0 0 1\r\n# x\n2 4 5 6 0 0 0 1", "t.tum");
   REQUIRE(poses.size() == 2);
   CHECK(poses[0].id == 2);
   CHECK(poses[1].numbers == std::array<double, 7>{1, 2, 3, 0, 0, 0, 1});
-  CHECK_THROWS_AS(read_tum("1.5 1 2 3 0 0 0 1\n", "t.tum"), Error);
-  CHECK_THROWS_AS(read_tum("1 1 2 3 0 0 0\n", "t.tum"), Error);
-  CHECK_THROWS_AS(read_tum("1 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n", "t.tum"), Error);
+  CHECK_THROWS_AS(formats::read_tum("1.5 1 2 3 0 0 0 1\n", "t.tum"), text::Error);
+  CHECK_THROWS_AS(formats::read_tum("1 1 2 3 0 0 0\n", "t.tum"), text::Error);
+  CHECK_THROWS_AS(formats::read_tum("1 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n", "t.tum"), text::Error);
 }

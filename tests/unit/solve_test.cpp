@@ -47,16 +47,16 @@ std::string random_graph(Random& random, int poses, int landmarks, int edges) {
 
 struct Setup {
   Setup(Random& random, const Graph& graph)
-      : problem(make_problem(graph)),
-        values(start_values(problem)),
-        system(make_linear_system(problem)) {
+      : problem(factor::make_problem(graph)),
+        values(factor::start_values(problem)),
+        system(factor::make_linear_system(problem)) {
     order = shuffled(random, problem.variables.pattern.variables());
-    linearize(problem, values, {}, system);
+    factor::linearize(problem, values, {}, system);
   }
-  Problem problem;
-  Values values;
-  LinearSystem system;
-  Order order;
+  factor::Problem problem;
+  factor::Values values;
+  factor::LinearSystem system;
+  graph::Order order;
 };
 
 // A' A and A' b by dense algebra, by scalar of a step.
@@ -64,7 +64,7 @@ struct Dense {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
 };
-Dense dense(const Problem& problem, const LinearSystem& system) {
+Dense dense(const factor::Problem& problem, const factor::LinearSystem& system) {
   const int n = problem.step_at.back();
   Dense sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
   for (Index r = 0; r < system.pattern->rows.size(); ++r) {
@@ -82,9 +82,10 @@ Dense dense(const Problem& problem, const LinearSystem& system) {
   return sum;
 }
 
-BatchResult run(Setup& setup, BatchOptions options, std::string_view backend = "tree") {
-  const auto solver = find_backend(backend).make(setup.system, setup.order, 1);
-  return optimize(setup.problem, setup.system, solver, options, setup.values);
+solve::BatchResult run(Setup& setup, solve::BatchOptions options,
+                       std::string_view backend = "tree") {
+  const auto solver = solve::find_backend(backend).make(setup.system, setup.order, 1);
+  return solve::optimize(setup.problem, setup.system, solver, options, setup.values);
 }
 
 }  // namespace
@@ -96,10 +97,10 @@ TEST_CASE("normal equations are the dense ones", "[solve]") {
         graph_of(random_graph(random, draw(random, 2, 7), draw(random, 1, 5), draw(random, 3, 27)));
     Setup setup(random, graph);
     const Dense expected = dense(setup.problem, setup.system);
-    NormalEquations normal = normal_structure(setup.system, setup.order);
+    solve::NormalEquations normal = solve::normal_structure(setup.system, setup.order);
     std::vector<double> damping(setup.problem.step_at.back());
     for (double& number : damping) number = draw(random, 0, 4);
-    form_normal_equations(setup.system, damping, normal);
+    solve::form_normal_equations(setup.system, damping, normal);
     std::vector<int> scalar_of(damping.size());  // of a position in elimination order
     for (Index j : setup.order) {
       for (int k = 0; k < normal.dim[j]; ++k)
@@ -119,7 +120,7 @@ TEST_CASE("normal equations are the dense ones", "[solve]") {
           1e-12 * (1 + given.norm()));
 
     std::vector<double> d, g;
-    diagonal_and_gradient(setup.system, d, g);
+    solve::diagonal_and_gradient(setup.system, d, g);
     for (std::size_t k = 0; k < d.size(); ++k) {
       CHECK(d[k] == Approx(expected.H(k, k)).margin(1e-12));
       CHECK(g[k] == Approx(expected.g[k]).margin(1e-12));
@@ -137,7 +138,7 @@ TEST_CASE("every backend solves the dense system, and tells a singular one", "[s
     const Dense expected = dense(setup.problem, setup.system);
     const Eigen::FullPivLU<Eigen::MatrixXd> lu(expected.H);
     (lu.isInvertible() ? regular : singular) += 1;
-    for (const Backend& backend : backends()) {
+    for (const solve::Backend& backend : solve::backends()) {
       INFO(backend.name << " trial " << trial);
       const auto solver = backend.make(setup.system, setup.order, 2);
       REQUIRE(solver.eliminate(setup.system, {}) == lu.isInvertible());
@@ -176,7 +177,7 @@ TEST_CASE("undetermined are those that move in the null space", "[solve]") {
           kernel.middleRows(setup.problem.step_at[j], setup.problem.variables.pattern.dim[j]);
       if (rows.norm() > 1e-6 * kernel.norm()) expected.push_back(j);
     }
-    const NullSpace open = null_space(setup.system);
+    const solve::NullSpace open = solve::null_space(setup.system);
     CHECK(open.dimension == kernel.cols());
     CHECK(open.undetermined == expected);
     CHECK(open.lost.empty());
@@ -198,21 +199,21 @@ std::string chain(int poses, int first = 0) {
   return text;
 }
 
-std::string failure(const std::string& text, BatchOptions options = {}) {
+std::string failure(const std::string& text, solve::BatchOptions options = {}) {
   Random random(1);
   const Graph graph = graph_of(text);
   Setup setup(random, graph);
   try {
     run(setup, options);
-  } catch (const Error& error) {
+  } catch (const text::Error& error) {
     return error.what();
   }
   return "";
 }
 
-BatchOptions gauss_newton_options() {
-  BatchOptions options;
-  options.method = BatchMethod::gauss_newton;
+solve::BatchOptions gauss_newton_options() {
+  solve::BatchOptions options;
+  options.method = solve::BatchMethod::gauss_newton;
   return options;
 }
 
@@ -223,10 +224,10 @@ TEST_CASE("a long chain is sound, and so are the vertices beside one that is loo
   for (const int poses : {100, 3000, 60000}) {
     const Graph graph = graph_of(chain(poses));
     Setup setup(random, graph);
-    CHECK(null_space(setup.system).dimension == 0);
+    CHECK(solve::null_space(setup.system).dimension == 0);
     const Graph loose = graph_of(chain(poses) + "VERTEX_SE2 900000 0 9 0\n");
     Setup beside(random, loose);
-    const NullSpace open = null_space(beside.system);
+    const solve::NullSpace open = solve::null_space(beside.system);
     CHECK(open.dimension == 3);
     CHECK(open.undetermined == std::vector<Index>{poses});
     CHECK(open.lost.empty());
@@ -234,7 +235,7 @@ TEST_CASE("a long chain is sound, and so are the vertices beside one that is loo
   // A second chain is loose as a whole, whatever its length.
   const Graph graph = graph_of(chain(1000) + chain(500, 5000));
   Setup setup(random, graph);
-  const NullSpace open = null_space(setup.system);
+  const solve::NullSpace open = solve::null_space(setup.system);
   CHECK(open.dimension == 3);
   REQUIRE(open.undetermined.size() == 500);
   CHECK(open.undetermined.front() == 1000);
@@ -244,11 +245,12 @@ TEST_CASE("a chain that normal equations cannot tell from a loose one is solved 
   Random random(1);
   std::string text = chain(150000);
   const Graph graph = graph_of(text + "EDGE_PRIOR_SE2_XY 149999 149999 0.5 1 0 1\n");
-  for (const BatchMethod method : {BatchMethod::gauss_newton, BatchMethod::levenberg_marquardt}) {
+  for (const solve::BatchMethod method :
+       {solve::BatchMethod::gauss_newton, solve::BatchMethod::levenberg_marquardt}) {
     Setup setup(random, graph);
-    BatchOptions options;
+    solve::BatchOptions options;
     options.method = method;
-    const BatchResult result = run(setup, options);
+    const solve::BatchResult result = run(setup, options);
     CHECK(result.converged);
     CHECK(result.chi2 < 1e-3);
   }
@@ -273,12 +275,12 @@ TEST_CASE("a change of scale is told from other motions", "[solve]") {
         "--gn as it starts");
   const Graph graph = graph_of(text);
   Setup setup(random, graph);
-  const auto scaling = free_scaling(setup.problem, setup.values, setup.system);
+  const auto scaling = factor::free_scaling(setup.problem, setup.values, setup.system);
   REQUIRE(scaling.size() == 16);
   const Dense system = dense(setup.problem, setup.system);
   const Eigen::Map<const Eigen::VectorXd> step(scaling.data(), 16);
   CHECK((system.H * step).norm() < 1e-10 * system.H.norm() * step.norm());
-  const BatchResult result = run(setup, {});
+  const solve::BatchResult result = run(setup, {});
   CHECK(result.scale_free);
   CHECK(result.converged);
   CHECK(result.chi2 < 1e-8);
@@ -290,7 +292,7 @@ TEST_CASE("a change of scale is told from other motions", "[solve]") {
   // A length fixes it.
   const Graph measured = graph_of(text + "EDGE_SE2 0 1 1 0 0.1 1 0 0 1 0 1\n");
   Setup held(random, measured);
-  CHECK(free_scaling(held.problem, held.values, held.system).empty());
+  CHECK(factor::free_scaling(held.problem, held.values, held.system).empty());
   CHECK(!run(held, {}).scale_free);
 }
 
@@ -301,26 +303,27 @@ TEST_CASE("what is at its optimum converges at once, be it zero", "[solve]") {
       "VERTEX_SE2 2 412346.2 5432101.1 0.2\n"
       "EDGE_SE2 0 1 0.3 0.1 0.2 250000 0 0 250000 0 1e6\nEDGE_SE2 1 2 1 0.7 0.3 250000 0 0 250000 "
       "0 1e6\n";
-  for (const BatchMethod method : {BatchMethod::gauss_newton, BatchMethod::levenberg_marquardt}) {
+  for (const solve::BatchMethod method :
+       {solve::BatchMethod::gauss_newton, solve::BatchMethod::levenberg_marquardt}) {
     const Graph graph = graph_of(turned);
     Setup setup(random, graph);
-    BatchOptions options;
+    solve::BatchOptions options;
     options.method = method;
     options.tolerance = 0;
     CHECK(run(setup, options).converged);
-    const BatchResult again = run(setup, options);
+    const solve::BatchResult again = run(setup, options);
     CHECK(again.converged);
     CHECK(again.iterations <= 1);
   }
 }
 
 TEST_CASE("undetermined vertices are named by runs of ids", "[solve]") {
-  CHECK(id_ranges({5}) == "vertex 5");
-  CHECK(id_ranges({5, 6}) == "vertices 5 and 6");
-  CHECK(id_ranges({1, 3, 4, 5, 9}) == "vertices 1, 3-5 and 9");
+  CHECK(solve::id_ranges({5}) == "vertex 5");
+  CHECK(solve::id_ranges({5, 6}) == "vertices 5 and 6");
+  CHECK(solve::id_ranges({1, 3, 4, 5, 9}) == "vertices 1, 3-5 and 9");
   std::vector<Id> many(50);
   for (std::size_t k = 0; k < many.size(); ++k) many[k] = 2 * static_cast<Id>(k);
-  const std::string text = id_ranges(many);
+  const std::string text = solve::id_ranges(many);
   CHECK(text.substr(text.size() - 14) == "38 and 30 more");
 }
 
@@ -332,17 +335,18 @@ TEST_CASE("both methods find the optimum, by every backend", "[solve]") {
       {"types-se2.g2o", 6.515277}, {"types-se3.g2o", 15.016624}, {"types-expmap.g2o", 25.128774}};
   for (const auto& [name, optimum] : optima) {
     const Graph graph = test_graph(name);
-    for (const Backend& backend : backends()) {
-      for (BatchMethod method : {BatchMethod::gauss_newton, BatchMethod::levenberg_marquardt}) {
+    for (const solve::Backend& backend : solve::backends()) {
+      for (solve::BatchMethod method :
+           {solve::BatchMethod::gauss_newton, solve::BatchMethod::levenberg_marquardt}) {
         INFO(name << " " << backend.name);
         Setup setup(random, graph);
-        BatchOptions options;
+        solve::BatchOptions options;
         options.method = method;
-        const BatchResult result = run(setup, options, backend.name);
+        const solve::BatchResult result = run(setup, options, backend.name);
         CHECK(result.converged);
         CHECK(result.chi2 == Approx(optimum).margin(6e-7));
-        CHECK(result.chi2 == chi2(setup.problem, setup.values));
-        linearize(setup.problem, setup.values, {}, setup.system);
+        CHECK(result.chi2 == factor::chi2(setup.problem, setup.values));
+        factor::linearize(setup.problem, setup.values, {}, setup.system);
         const Dense at = dense(setup.problem, setup.system);
         CHECK(at.g.norm() < 1e-4 * std::sqrt(at.H.norm() * result.chi2));
       }
@@ -364,7 +368,7 @@ TEST_CASE("Levenberg-Marquardt never ends higher than it began", "[solve]") {
       text += "EDGE_SE2_XY 0 " + std::to_string(1000 + k) + " 1 1 1 0 1\n";
     const Graph graph = graph_of(text);
     Setup setup(random, graph);
-    const BatchResult result = run(setup, {});
+    const solve::BatchResult result = run(setup, {});
     CHECK(result.chi2 <= result.initial_chi2);
     converged += result.converged;
   }
@@ -373,26 +377,26 @@ TEST_CASE("Levenberg-Marquardt never ends higher than it began", "[solve]") {
 
 TEST_CASE("robust kernels find the optima that g2o finds", "[solve]") {
   Random random(6);
-  const auto optimum = [&](const char* name, KernelShape shape) {
+  const auto optimum = [&](const char* name, factor::KernelShape shape) {
     const Graph graph = test_graph(name);
     Setup setup(random, graph);
-    BatchOptions options;
+    solve::BatchOptions options;
     options.kernel = {shape, 1};
     return run(setup, options).chi2;
   };
-  CHECK(optimum("types-se2.g2o", KernelShape::huber) == Approx(6.515277).margin(6e-7));
-  CHECK(optimum("types-se2.g2o", KernelShape::cauchy) == Approx(5.327941).margin(6e-7));
-  CHECK(optimum("types-se3.g2o", KernelShape::huber) == Approx(14.668892).epsilon(2e-6));
-  CHECK(optimum("types-se3.g2o", KernelShape::cauchy) == Approx(10.948605).epsilon(2e-6));
+  CHECK(optimum("types-se2.g2o", factor::KernelShape::huber) == Approx(6.515277).margin(6e-7));
+  CHECK(optimum("types-se2.g2o", factor::KernelShape::cauchy) == Approx(5.327941).margin(6e-7));
+  CHECK(optimum("types-se3.g2o", factor::KernelShape::huber) == Approx(14.668892).epsilon(2e-6));
+  CHECK(optimum("types-se3.g2o", factor::KernelShape::cauchy) == Approx(10.948605).epsilon(2e-6));
 }
 
 TEST_CASE("a graph of constants is solved as it stands", "[solve]") {
   Random random(7);
   const Graph graph =
       graph_of("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nFIX 0 1\nEDGE_SE2 0 1 2 0 0 1 0 0 1 0 1\n");
-  for (const Backend& backend : backends()) {
+  for (const solve::Backend& backend : solve::backends()) {
     Setup setup(random, graph);
-    const BatchResult result = run(setup, {}, backend.name);
+    const solve::BatchResult result = run(setup, {}, backend.name);
     CHECK(result.converged);
     CHECK(result.chi2 == 1);
   }

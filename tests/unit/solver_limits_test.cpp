@@ -16,16 +16,16 @@
 namespace {
 
 sg::Graph graph_of(const std::string& text) {
-  return sg::read_graph_text(sg::text_of(text), "test.g2o");
+  return sg::formats::read_graph_text(sg::text::text_of(text), "test.g2o");
 }
 
 // The message of the Error that `work` ends with, empty without one.
 std::string failure(const auto& work) {
   try {
     work();
-  } catch (const sg::Error& error) {
-    CHECK(error.fault == sg::Fault::computation);
-    return sg::message(error);
+  } catch (const sg::text::Error& error) {
+    CHECK(error.fault == sg::text::Fault::computation);
+    return sg::text::message(error);
   }
   return "";
 }
@@ -33,17 +33,17 @@ std::string failure(const auto& work) {
 // Of every batch backend and of the replay, which have to agree.
 std::string failure_of_all(const std::string& text) {
   const sg::Graph graph = graph_of(text);
-  const sg::Problem problem = sg::make_problem(graph);
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
   const std::string incremental = failure([&] {
-    auto replay = sg::make_isam2_replay(problem, {}, 1, !graph.edges_only);
-    for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::replay_step(replay, k);
+    auto replay = sg::solve::make_isam2_replay(problem, {}, 1, !graph.edges_only);
+    for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::solve::replay_step(replay, k);
   });
-  const sg::Order order = sg::elimination_order("colamd", problem.variables.pattern);
-  for (const sg::Backend& backend : sg::backends()) {
+  const sg::graph::Order order = sg::order::elimination_order("colamd", problem.variables.pattern);
+  for (const sg::solve::Backend& backend : sg::solve::backends()) {
     const std::string batch = failure([&] {
-      sg::LinearSystem system = sg::make_linear_system(problem);
-      sg::Values values = sg::start_values(problem);
-      sg::optimize(problem, system, backend.make(system, order, 1), {}, values);
+      sg::factor::LinearSystem system = sg::factor::make_linear_system(problem);
+      sg::factor::Values values = sg::factor::start_values(problem);
+      sg::solve::optimize(problem, system, backend.make(system, order, 1), {}, values);
     });
     CHECK(batch == incremental);
   }
@@ -92,21 +92,22 @@ TEST_CASE("information whose sums leave the finite numbers is told by its line",
 TEST_CASE("a pivot that is not finite is dropped like one that vanished", "[limits]") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (const sg::Kernels* kernel : sg::all_kernels()) {
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
     INFO(kernel->name);
     for (const double odd : {nan, infinity, 0.0, -1.0}) {
-      std::vector<double> l(3 * sg::lane + sg::lane), u(sg::lane + sg::lane);
-      const sg::Front front{l.data(), u.data(), 3, 4};
+      std::vector<double> l(3 * sg::solve::lane + sg::solve::lane),
+          u(sg::solve::lane + sg::solve::lane);
+      const sg::solve::Front front{l.data(), u.data(), 3, 4};
       for (int k = 0; k < 3; ++k) front.pivot(k) = k == 1 ? odd : 4;
       const std::vector<double> floors(3, 1e-9);
       CHECK(kernel->factorize(front, floors.data()) == 1);
       std::vector<sg::Index> dropped;
       const std::vector<sg::Index> frontals{0, 1};
       const std::vector<int> dim{1, 2};
-      sg::append_vanished(front, frontals, dim, dropped);
+      sg::solve::append_vanished(front, frontals, dim, dropped);
       CHECK(dropped == std::vector<sg::Index>{1});
       CHECK(front.pivot(0) == 2);
-      std::vector<double> x(sg::lane);
+      std::vector<double> x(sg::solve::lane);
       x[3] = -1;
       kernel->back_substitute(front, x.data());
       CHECK(x[1] == 0);
@@ -122,11 +123,11 @@ TEST_CASE("one rule says which pivots have vanished: both backends and the repla
         "FIX 0\nVERTEX_XY 0 0 0\nVERTEX_XY 1 0 0\n"
         "EDGE_POINTXY 0 1 1 1 1 " +
         c + " 1\n");
-    const sg::Problem problem = sg::make_problem(graph);
-    sg::LinearSystem system = sg::make_linear_system(problem);
-    sg::linearize(problem, sg::start_values(problem), {}, system);
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    sg::factor::LinearSystem system = sg::factor::make_linear_system(problem);
+    sg::factor::linearize(problem, sg::factor::start_values(problem), {}, system);
     INFO(regular);
-    for (const sg::Backend& backend : sg::backends()) {
+    for (const sg::solve::Backend& backend : sg::solve::backends()) {
       INFO(backend.name);
       // QR, which squares nothing, sees the second pivot's root.
       const bool wanted = regular || backend.name == "qr";
@@ -136,10 +137,10 @@ TEST_CASE("one rule says which pivots have vanished: both backends and the repla
 }
 
 TEST_CASE("the diagonal of a front lies beyond int from 46341 rows on", "[limits]") {
-  STATIC_REQUIRE(sg::diagonal_at(46341, 46344) == 46341LL * 46345LL);
-  STATIC_REQUIRE(sg::diagonal_at(46341, 46344) > std::numeric_limits<int>::max());
+  STATIC_REQUIRE(sg::solve::diagonal_at(46341, 46344) == 46341LL * 46345LL);
+  STATIC_REQUIRE(sg::solve::diagonal_at(46341, 46344) > std::numeric_limits<int>::max());
   double origin = 0;
-  const sg::Front front{&origin, &origin, 60000, 60001};
+  const sg::solve::Front front{&origin, &origin, 60000, 60001};
   const auto distance = [&](int k) {
     return (reinterpret_cast<std::uintptr_t>(&front.pivot(k)) -
             reinterpret_cast<std::uintptr_t>(&origin)) /
@@ -153,34 +154,34 @@ namespace {
 
 template <class G>
 concept can_make_problem = requires(G&& graph) {
-  sg::make_problem(std::forward<G>(graph));
+  sg::factor::make_problem(std::forward<G>(graph));
 };
 template <class P>
 concept can_make_system = requires(P&& p) {
-  sg::make_linear_system(std::forward<P>(p));
+  sg::factor::make_linear_system(std::forward<P>(p));
 };
 template <class P>
 concept can_make_isam2 = requires(P&& p) {
-  sg::make_isam2(std::forward<P>(p), {});
+  sg::solve::make_isam2(std::forward<P>(p), {});
 };
 template <class P>
 concept can_make_replay = requires(P&& p) {
-  sg::make_isam2_replay(std::forward<P>(p), {}, 1, false);
+  sg::solve::make_isam2_replay(std::forward<P>(p), {}, 1, false);
 };
 template <class G, class P, class O>
 concept can_keyframe = requires(G&& g, P&& p, O&& o) {
-  sg::keyframing(std::forward<G>(g), std::forward<P>(p), std::forward<O>(o), {}, true);
+  sg::prune::keyframing(std::forward<G>(g), std::forward<P>(p), std::forward<O>(o), {}, true);
 };
 
 static_assert(can_make_problem<const sg::Graph&> && !can_make_problem<sg::Graph>);
-static_assert(can_make_system<const sg::Problem&> && !can_make_system<sg::Problem>);
-static_assert(can_make_isam2<const sg::Problem&> && !can_make_isam2<sg::Problem>);
-static_assert(can_make_replay<const sg::Problem&> && !can_make_replay<sg::Problem>);
-static_assert(can_keyframe<sg::Graph&, sg::PoseIndex&, sg::Lists<>&>);
-static_assert(!can_keyframe<sg::Graph, sg::PoseIndex&, sg::Lists<>&>);
-static_assert(!can_keyframe<sg::Graph&, sg::PoseIndex, sg::Lists<>&>);
-static_assert(!can_keyframe<sg::Graph&, sg::PoseIndex&, sg::Lists<>>);
-static_assert(!std::is_copy_constructible_v<sg::Snapshot>);
-static_assert(!std::is_copy_assignable_v<sg::Snapshot>);
+static_assert(can_make_system<const sg::factor::Problem&> && !can_make_system<sg::factor::Problem>);
+static_assert(can_make_isam2<const sg::factor::Problem&> && !can_make_isam2<sg::factor::Problem>);
+static_assert(can_make_replay<const sg::factor::Problem&> && !can_make_replay<sg::factor::Problem>);
+static_assert(can_keyframe<sg::Graph&, sg::graph::PoseIndex&, sg::graph::Lists<>&>);
+static_assert(!can_keyframe<sg::Graph, sg::graph::PoseIndex&, sg::graph::Lists<>&>);
+static_assert(!can_keyframe<sg::Graph&, sg::graph::PoseIndex, sg::graph::Lists<>&>);
+static_assert(!can_keyframe<sg::Graph&, sg::graph::PoseIndex&, sg::graph::Lists<>>);
+static_assert(!std::is_copy_constructible_v<sg::solve::Snapshot>);
+static_assert(!std::is_copy_assignable_v<sg::solve::Snapshot>);
 
 }  // namespace

@@ -65,11 +65,11 @@ struct DenseLayer {
 // The definition in lib/prune/tgreedy.h, round by round. `now` says which candidates may be taken.
 struct Textbook {
   const Graph& graph;
-  TreeNodes nodes = tree_nodes(graph);
+  trees::TreeNodes nodes = trees::tree_nodes(graph);
   std::vector<DenseLayer> layers = {};
 
-  Textbook(const Graph& graph_, TreeWeights kind) : graph(graph_) {
-    for (const TreeLayer& layer : tree_layers(graph, kind))
+  Textbook(const Graph& graph_, trees::TreeWeights kind) : graph(graph_) {
+    for (const trees::TreeLayer& layer : trees::tree_layers(graph, kind))
       layers.push_back({layer.multiplicity, layer.weight, DenseGraph(nodes.count)});
   }
   void add(Index e) {
@@ -116,7 +116,7 @@ struct Textbook {
 };
 
 std::vector<Index> textbook(const Graph& graph, const std::vector<Index>& candidates,
-                            std::size_t count, TreeWeights kind) {
+                            std::size_t count, trees::TreeWeights kind) {
   Textbook book(graph, kind);
   std::vector<bool> taken(graph.edges(), false), candidate(graph.edges(), false);
   for (Index e : candidates) candidate[e] = true;
@@ -132,11 +132,11 @@ std::vector<Index> textbook(const Graph& graph, const std::vector<Index>& candid
   return kept;
 }
 
-std::vector<Index> textbook_online(const Graph& graph, const PoseIndex& poses,
+std::vector<Index> textbook_online(const Graph& graph, const graph::PoseIndex& poses,
                                    const std::vector<Index>& candidates, std::size_t count,
-                                   TreeWeights kind, Index batch) {
+                                   trees::TreeWeights kind, Index batch) {
   Textbook book(graph, kind);
-  const Replay steps = replay(graph, poses);
+  const graph::Replay steps = graph::replay(graph, poses);
   std::vector<bool> taken(graph.edges(), false), candidate(graph.edges(), false);
   for (Index e : candidates) candidate[e] = true;
   count = std::min(count, candidates.size());
@@ -162,9 +162,9 @@ std::vector<Index> textbook_online(const Graph& graph, const PoseIndex& poses,
   return kept;
 }
 
-std::vector<Index> edges_of(const std::vector<Accepted>& accepted) {
+std::vector<Index> edges_of(const std::vector<prune::Accepted>& accepted) {
   std::vector<Index> edges;
-  for (const Accepted& step : accepted) edges.push_back(step.edge);
+  for (const prune::Accepted& step : accepted) edges.push_back(step.edge);
   return edges;
 }
 
@@ -207,13 +207,14 @@ TEST_CASE("the kept set is the textbook greedy's", "[tgreedy]") {
   int kept_in_all = 0;
   for (int trial = 0; trial < 600; ++trial) {
     const Graph graph = graph_of(random_graph(random, trial % 2 == 0, trial % 5 == 0));
-    const PoseIndex poses = pose_index(graph);
-    const TreeWeights kind = static_cast<TreeWeights>(trial % 4);
-    const auto candidates = candidate_edges(
-        graph, poses, trial % 3 == 0 ? Candidates::both : natural_candidates(graph));
-    if (kind == TreeWeights::rotation && trial % 2 == 0) continue;  // points have no rotation
+    const graph::PoseIndex poses = graph::pose_index(graph);
+    const trees::TreeWeights kind = static_cast<trees::TreeWeights>(trial % 4);
+    const auto candidates = prune::candidate_edges(
+        graph, poses, trial % 3 == 0 ? prune::Candidates::both : prune::natural_candidates(graph));
+    if (kind == trees::TreeWeights::rotation && trial % 2 == 0)
+      continue;  // points have no rotation
     const std::size_t count = draw(random, 0, static_cast<int>(candidates.size()) + 2);
-    const auto kept = edges_of(tgreedy(graph, candidates, count, kind));
+    const auto kept = edges_of(prune::tgreedy(graph, candidates, count, kind));
     INFO("trial " << trial);
     CHECK(kept == textbook(graph, candidates, count, kind));
     kept_in_all += static_cast<int>(kept.size());
@@ -225,13 +226,14 @@ TEST_CASE("the online choice is the textbook's, batch by batch", "[tgreedy]") {
   Random random(2);
   for (int trial = 0; trial < 300; ++trial) {
     const Graph graph = graph_of(random_graph(random, trial % 2 == 0, false));
-    const PoseIndex poses = pose_index(graph);
-    const auto candidates = candidate_edges(graph, poses, natural_candidates(graph));
+    const graph::PoseIndex poses = graph::pose_index(graph);
+    const auto candidates = prune::candidate_edges(graph, poses, prune::natural_candidates(graph));
     const std::size_t count = draw(random, 0, static_cast<int>(candidates.size()) + 2);
     const Index batch = draw(random, 1, 4);
     INFO("trial " << trial);
-    CHECK(edges_of(tgreedy_online(graph, poses, candidates, count, TreeWeights::unit, batch)) ==
-          textbook_online(graph, poses, candidates, count, TreeWeights::unit, batch));
+    CHECK(edges_of(prune::tgreedy_online(graph, poses, candidates, count, trees::TreeWeights::unit,
+                                         batch)) ==
+          textbook_online(graph, poses, candidates, count, trees::TreeWeights::unit, batch));
   }
 }
 
@@ -239,8 +241,10 @@ TEST_CASE("gains add up to the criterion, and shrink", "[tgreedy]") {
   Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
     const Graph graph = graph_of(random_graph(random, trial % 2 == 0, false));
-    const auto candidates = candidate_edges(graph, pose_index(graph), natural_candidates(graph));
-    const auto accepted = tgreedy(graph, candidates, candidates.size(), TreeWeights::dopt);
+    const auto candidates =
+        prune::candidate_edges(graph, graph::pose_index(graph), prune::natural_candidates(graph));
+    const auto accepted =
+        prune::tgreedy(graph, candidates, candidates.size(), trees::TreeWeights::dopt);
     for (std::size_t k = 1; k < accepted.size(); ++k) {
       CHECK(accepted[k].criterion - accepted[k - 1].criterion ==
             Approx(accepted[k].gain).margin(1e-8));
@@ -253,9 +257,11 @@ TEST_CASE("gains add up to the criterion, and shrink", "[tgreedy]") {
 TEST_CASE("intel: the textbook's choice", "[tgreedy]") {
   const auto folder = public_graphs();
   if (!folder) return;
-  const Graph graph = read_graph(*folder + "/intel.g2o");
-  const auto candidates = candidate_edges(graph, pose_index(graph), Candidates::loops);
-  const auto accepted = tgreedy(graph, candidates, candidates.size() / 4, TreeWeights::unit);
+  const Graph graph = formats::read_graph(*folder + "/intel.g2o");
+  const auto candidates =
+      prune::candidate_edges(graph, graph::pose_index(graph), prune::Candidates::loops);
+  const auto accepted =
+      prune::tgreedy(graph, candidates, candidates.size() / 4, trees::TreeWeights::unit);
 
   // Dense, with the inverse updated instead of computed in every round (Sherman, Morrison).
   DenseGraph dense(graph.vertices());
@@ -268,7 +274,7 @@ TEST_CASE("intel: the textbook's choice", "[tgreedy]") {
   grounded(0, 0) += 1;
   MatrixXd x = grounded.llt().solve(MatrixXd::Identity(graph.vertices(), graph.vertices()));
   std::vector<bool> taken(graph.edges(), false);
-  for (const Accepted& step : accepted) {
+  for (const prune::Accepted& step : accepted) {
     Index best = -1;
     double most = -1;
     for (Index e : candidates) {
@@ -293,41 +299,41 @@ TEST_CASE("parts that candidates join come first, and nothing is lost", "[tgreed
       "EDGE_SE2 0 1" +
       tail + "EDGE_SE2 1 2" + tail + "EDGE_SE2 3 4" + tail + "EDGE_SE2 4 5" + tail +
       "EDGE_SE2 0 2" + tail + "EDGE_SE2 0 5" + tail + "EDGE_SE2 2 4" + tail);
-  const PoseIndex poses = pose_index(graph);
-  const auto candidates = candidate_edges(graph, poses, Candidates::loops);
-  const auto one = tgreedy(graph, candidates, 1, TreeWeights::unit);
+  const graph::PoseIndex poses = graph::pose_index(graph);
+  const auto candidates = prune::candidate_edges(graph, poses, prune::Candidates::loops);
+  const auto one = prune::tgreedy(graph, candidates, 1, trees::TreeWeights::unit);
   REQUIRE(one.size() == 1);
   CHECK(graph.edge(one[0].edge)[1] == 5);
   CHECK(one[0].joins);
   std::vector<bool> removed(graph.edges(), false);
-  CHECK(pose_parts(graph, poses, removed) == 1);
+  CHECK(prune::pose_parts(graph, poses, removed) == 1);
   for (Index e : candidates) removed[e] = true;
-  CHECK(pose_parts(graph, poses, removed) == 2);
-  CHECK(tgreedy(graph, candidates, 99, TreeWeights::unit).size() == 3);
-  CHECK(tgreedy(graph, {}, 5, TreeWeights::unit).empty());
+  CHECK(prune::pose_parts(graph, poses, removed) == 2);
+  CHECK(prune::tgreedy(graph, candidates, 99, trees::TreeWeights::unit).size() == 3);
+  CHECK(prune::tgreedy(graph, {}, 5, trees::TreeWeights::unit).empty());
 }
 
 TEST_CASE("spanning trees: formulas that everybody knows", "[tgreedy]") {
   for (int n = 1; n <= 12; ++n) {
-    std::vector<TreeEdge> links;
+    std::vector<trees::TreeEdge> links;
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) links.push_back({i, j});
     }
     const std::vector<double> unit(links.size(), 1), none(links.size(), 0);
-    CHECK(spanning_trees(n, links, unit).log_trees ==
+    CHECK(trees::spanning_trees(n, links, unit).log_trees ==
           Approx((n - 2) * std::log(n)).margin(1e-9));  // Cayley
-    SpanningTrees grown = spanning_trees(n, links, none);
-    for (const TreeEdge& link : links) add_link(grown, link, 1);
+    trees::SpanningTrees grown = trees::spanning_trees(n, links, none);
+    for (const trees::TreeEdge& link : links) trees::add_link(grown, link, 1);
     CHECK(grown.log_trees == Approx((n - 2) * std::log(n)).margin(1e-9));
   }
-  CHECK(spanning_trees(0, {}, {}).log_trees == 0);
+  CHECK(trees::spanning_trees(0, {}, {}).log_trees == 0);
 }
 
 TEST_CASE("spanning trees of weights that differ wildly", "[tgreedy]") {
   Random random(4);
   for (int trial = 0; trial < 100; ++trial) {
     const int n = draw(random, 2, 9);
-    std::vector<TreeEdge> links;
+    std::vector<trees::TreeEdge> links;
     std::vector<double> weight;
     DenseGraph dense(n);
     const auto add = [&](int u, int v) {
@@ -341,7 +347,7 @@ TEST_CASE("spanning trees of weights that differ wildly", "[tgreedy]") {
       const int u = draw(random, 0, n - 2);
       add(u, draw(random, u + 1, n - 1));
     }
-    SpanningTrees trees = spanning_trees(n, links, weight);
+    trees::SpanningTrees trees = trees::spanning_trees(n, links, weight);
     const double expected =
         std::log(dense.laplacian.bottomRightCorner(n - 1, n - 1).fullPivLu().determinant());
     CHECK(trees.log_trees == Approx(expected).epsilon(1e-6).margin(1e-5));
@@ -351,7 +357,7 @@ TEST_CASE("spanning trees of weights that differ wildly", "[tgreedy]") {
       const auto [u, v] = links[k];
       const double r = at(u, u) + at(v, v) - 2 * at(u, v);
       if (r > 1e-6 * (at(u, u) + at(v, v)))
-        CHECK(resistance(trees, links[k]) == Approx(r).epsilon(1e-4));
+        CHECK(trees::resistance(trees, links[k]) == Approx(r).epsilon(1e-4));
     }
   }
 }

@@ -37,28 +37,28 @@ Cells manual_table(const std::string& section) {
 }
 
 // The manual's short name of a vertex.
-std::string short_name(VertexTag type) {
-  if (type == VertexTag::se3 || type == VertexTag::toro3) return "SE3";
-  if (type == VertexTag::toro2) return "SE2";
-  if (type == VertexTag::expmap) return "SE3EXPMAP";
-  if (type == VertexTag::sim3) return "SIM3";
-  return std::string(name(type)).substr(std::string("VERTEX_").size());
+std::string short_name(graph::VertexTag type) {
+  if (type == graph::VertexTag::se3 || type == graph::VertexTag::toro3) return "SE3";
+  if (type == graph::VertexTag::toro2) return "SE2";
+  if (type == graph::VertexTag::expmap) return "SE3EXPMAP";
+  if (type == graph::VertexTag::sim3) return "SIM3";
+  return std::string(graph::name(type)).substr(std::string("VERTEX_").size());
 }
 
 }  // namespace
 
 TEST_CASE("the manual's tables are the registry", "[types]") {
   const Cells vertices = manual_table("VERTICES"), edges = manual_table("EDGES");
-  CHECK(vertices.size() == vertex_rows.size());
-  for (const VertexRow& row : vertex_rows) {
+  CHECK(vertices.size() == graph::vertex_rows.size());
+  for (const graph::VertexRow& row : graph::vertex_rows) {
     INFO(row.tag);
     const auto& cells = vertices.at(std::string(row.tag));
     REQUIRE(cells.size() == 4);
-    CHECK(cells[1] == std::to_string(space_dim(row.space)));
-    CHECK(cells[2] == name(row.role));
+    CHECK(cells[1] == std::to_string(graph::space_dim(row.space)));
+    CHECK(cells[2] == graph::name(row.role));
   }
-  CHECK(edges.size() == edge_rows.size());
-  for (const EdgeRow& row : edge_rows) {
+  CHECK(edges.size() == graph::edge_rows.size());
+  for (const graph::EdgeRow& row : graph::edge_rows) {
     INFO(row.tag);
     const auto& cells = edges.at(std::string(row.tag));
     std::string ids = short_name(row.ends[0]);
@@ -72,82 +72,83 @@ TEST_CASE("the manual's tables are the registry", "[types]") {
 }
 
 TEST_CASE("rows agree with their spaces", "[types]") {
-  for (const SpaceRow& row : space_rows) {
+  for (const graph::SpaceRow& row : graph::space_rows) {
     CHECK(row.translation.first + row.translation.size <= row.dim);
     CHECK(row.rotation.first + row.rotation.size <= row.dim);
     CHECK((row.numbers < 0 || row.position <= row.numbers));
     CHECK((row.position == 0 || row.position == row.translation.size));
-    CHECK((!has_quaternion(row.space) || row.numbers >= 7));
+    CHECK((!graph::has_quaternion(row.space) || row.numbers >= 7));
   }
-  for (const EdgeRow& row : edge_rows) {
+  for (const graph::EdgeRow& row : graph::edge_rows) {
     INFO(row.tag);
     CHECK(row.ends.size >= 1);
-    CHECK((row.measure.space == Space::none || row.measure.numbers >= 0));
-    CHECK((row.measure.order == Triangle::rows || row.measure.dim == 3));
+    CHECK((row.measure.space == graph::Space::none || row.measure.numbers >= 0));
+    CHECK((row.measure.order == graph::Triangle::rows || row.measure.dim == 3));
     CHECK((!row.counted || row.ends.size == 2));
   }
 }
 
 TEST_CASE("types of the registry are known by their enumerators", "[types]") {
-  const Tags tags = builtin_tags();
-  for (const EdgeRow& row : edge_rows) {
-    const TagMeaning* meaning = tags.find(row.tag);
+  const graph::Tags tags = graph::builtin_tags();
+  for (const graph::EdgeRow& row : graph::edge_rows) {
+    const graph::TagMeaning* meaning = tags.find(row.tag);
     REQUIRE(meaning);
-    CHECK(meaning->kind == LineKind::edge);
-    CHECK(EdgeTag{meaning->type} == row.type);
+    CHECK(meaning->kind == graph::LineKind::edge);
+    CHECK(graph::EdgeTag{meaning->type} == row.type);
     CHECK(tags.edges[meaning->type].arity == row.ends.size);
   }
-  for (const VertexRow& row : vertex_rows) {
-    const TagMeaning* meaning = tags.find(row.tag);
+  for (const graph::VertexRow& row : graph::vertex_rows) {
+    const graph::TagMeaning* meaning = tags.find(row.tag);
     REQUIRE(meaning);
-    CHECK(meaning->kind == LineKind::vertex);
-    CHECK(VertexTag{meaning->type} == row.type);
+    CHECK(meaning->kind == graph::LineKind::vertex);
+    CHECK(graph::VertexTag{meaning->type} == row.type);
   }
-  for (const Alias& alias : aliases) {
+  for (const graph::Alias& alias : graph::aliases) {
     REQUIRE(tags.find(alias.means));
     CHECK(tags.find(alias.tag)->type == tags.find(alias.means)->type);
   }
-  CHECK(tags.edges[static_cast<int>(EdgeTag::se2)].numbers == 9);
-  CHECK(tags.edges[static_cast<int>(EdgeTag::expmap)].numbers == 28);
-  CHECK(tags.edges[static_cast<int>(EdgeTag::stereo_se3_project_xyz)].numbers == 14);
-  CHECK(tags.edges[static_cast<int>(EdgeTag::se3_lotsof_xyz)].numbers == 3);
-  CHECK(tags.edges[static_cast<int>(EdgeTag::gicp)].numbers == -1);
+  CHECK(tags.edges[static_cast<int>(graph::EdgeTag::se2)].numbers == 9);
+  CHECK(tags.edges[static_cast<int>(graph::EdgeTag::expmap)].numbers == 28);
+  CHECK(tags.edges[static_cast<int>(graph::EdgeTag::stereo_se3_project_xyz)].numbers == 14);
+  CHECK(tags.edges[static_cast<int>(graph::EdgeTag::se3_lotsof_xyz)].numbers == 3);
+  CHECK(tags.edges[static_cast<int>(graph::EdgeTag::gicp)].numbers == -1);
 }
 
 TEST_CASE("models are found by type, and a taught type has none", "[types]") {
-  CHECK(models().size() == 22);
-  for (const Model& model : models()) {
-    CHECK(find_model(model.type) == &model);
-    CHECK(model.tag == name(model.type));
-    CHECK(model.arity == row(model.type).ends.size);
+  CHECK(factor::models().size() == 22);
+  for (const factor::Model& model : factor::models()) {
+    CHECK(factor::find_model(model.type) == &model);
+    CHECK(model.tag == graph::name(model.type));
+    CHECK(model.arity == graph::row(model.type).ends.size);
   }
-  CHECK(find_model(EdgeTag::plane) == nullptr);
-  CHECK(find_model(EdgeTag{static_cast<std::uint8_t>(edge_rows.size())}) == nullptr);
-  CHECK(find_model(EdgeTag{255}) == nullptr);
+  CHECK(factor::find_model(graph::EdgeTag::plane) == nullptr);
+  CHECK(factor::find_model(graph::EdgeTag{static_cast<std::uint8_t>(graph::edge_rows.size())}) ==
+        nullptr);
+  CHECK(factor::find_model(graph::EdgeTag{255}) == nullptr);
 }
 
 TEST_CASE("taught types never share a number with those of the registry", "[types]") {
-  Tags tags = builtin_tags();
-  teach_edge(tags, "MINE:2");
-  teach_edge(tags, "MINE:2");
-  CHECK(tags.find("MINE")->type == edge_rows.size());
-  CHECK(tags.edges.size() == edge_rows.size() + 1);
-  teach_edge(tags, "EDGE_SE2:2");
-  CHECK(EdgeTag{tags.find("EDGE_SE2")->type} == EdgeTag::se2);
+  graph::Tags tags = graph::builtin_tags();
+  graph::teach_edge(tags, "MINE:2");
+  graph::teach_edge(tags, "MINE:2");
+  CHECK(tags.find("MINE")->type == graph::edge_rows.size());
+  CHECK(tags.edges.size() == graph::edge_rows.size() + 1);
+  graph::teach_edge(tags, "EDGE_SE2:2");
+  CHECK(graph::EdgeTag{tags.find("EDGE_SE2")->type} == graph::EdgeTag::se2);
   for (std::size_t k = tags.edges.size(); k < 256; ++k) {
-    teach_edge(tags, "MINE" + std::to_string(k) + ":2");
+    graph::teach_edge(tags, "MINE" + std::to_string(k) + ":2");
   }
   CHECK(tags.find("MINE255")->type == 255);
-  CHECK_THROWS_AS(teach_edge(tags, "ONE_MORE:2"), Error);
+  CHECK_THROWS_AS(graph::teach_edge(tags, "ONE_MORE:2"), text::Error);
 }
 
 TEST_CASE("information comes row by row, whatever the order of its line", "[types]") {
-  ReadOptions options;
+  formats::ReadOptions options;
   options.format = "g2o";
-  const Graph graph = read_graph_text(
-      text_of("VERTEX2 0 0 0 0\nVERTEX2 1 1 0 0\nEDGE2 0 1 1 2 3 11 12 22 33 13 23 7\n"), "test",
-      options);
+  const Graph graph = formats::read_graph_text(
+      text::text_of("VERTEX2 0 0 0 0\nVERTEX2 1 1 0 0\nEDGE2 0 1 1 2 3 11 12 22 33 13 23 7\n"),
+      "test", options);
   std::vector<double> numbers;
-  edge_numbers(graph, 0, numbers);
+  graph::edge_numbers(graph, 0, numbers);
   CHECK(numbers == std::vector<double>{1, 2, 3, 11, 12, 13, 22, 23, 33, 7});
 }

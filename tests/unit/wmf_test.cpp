@@ -21,8 +21,8 @@ using namespace sg::test;
 namespace {
 
 using sg::Index;
-using sg::Order;
-using sg::Pattern;
+using sg::graph::Order;
+using sg::graph::Pattern;
 using Row = std::vector<Index>;
 
 std::vector<int> odd_stages(Random& random, Index n) {
@@ -83,13 +83,13 @@ struct Literal {
   }
 };
 
-std::set<Index> members(const sg::Supervariables& variables, Index v) {
+std::set<Index> members(const sg::order::Supervariables& variables, Index v) {
   std::set<Index> result;
   for (Index m = v; m >= 0; m = variables.next[m]) result.insert(m);
   return result;
 }
 
-Index some_alive(const sg::Supervariables& variables, Random& random) {
+Index some_alive(const sg::order::Supervariables& variables, Random& random) {
   std::vector<Index> alive;
   for (Index v = 0; v < static_cast<Index>(variables.dim.size()); ++v) {
     if (variables.alive[v]) alive.push_back(v);
@@ -98,12 +98,12 @@ Index some_alive(const sg::Supervariables& variables, Random& random) {
 }
 
 // Follows what was eliminated since `done`; returns the sum of the costs.
-sg::Wide follow(Literal& literal, const Order& order, std::size_t& done) {
-  sg::Wide cost = 0;
+sg::elim::Wide follow(Literal& literal, const Order& order, std::size_t& done) {
+  sg::elim::Wide cost = 0;
   for (; done < order.size(); ++done) {
     const Index v = order[done];
     const std::int64_t front = literal.dim[v] + literal.weight(literal.neighbours[v]);
-    cost += sg::elimination_cost(literal.dim[v], front);
+    cost += sg::elim::elimination_cost(literal.dim[v], front);
     literal.eliminate(v);
   }
   return cost;
@@ -111,7 +111,7 @@ sg::Wide follow(Literal& literal, const Order& order, std::size_t& done) {
 
 // However many they are: what took quadratic time would not end.
 bool is_ordered(const Pattern& pattern) {
-  return is_permutation_of(sg::wmf(pattern), pattern.variables());
+  return is_permutation_of(sg::order::wmf(pattern), pattern.variables());
 }
 
 Pattern star(Index n) {
@@ -126,8 +126,8 @@ Pattern path(Index n) {
   return make_pattern(std::vector<int>(n, 6), rows);
 }
 
-sg::Wide ec(const Pattern& pattern, const Order& order) {
-  return sg::elimination_complexity(pattern, order);
+sg::elim::Wide ec(const Pattern& pattern, const Order& order) {
+  return sg::elim::elimination_complexity(pattern, order);
 }
 
 }  // namespace
@@ -140,10 +140,11 @@ TEST_CASE("the fill graph knows every fill and degree exactly", "[wmf]") {
     const std::vector<int> stage = trial % 2 == 0 ? std::vector<int>{} : odd_stages(random, n);
     Literal literal(pattern);
     std::size_t done = 0;
-    sg::Wide cost = 0;
-    sg::FillGraph graph = sg::fill_graph(sg::adjacency(pattern), pattern.dim, stage, 1'000'000);
+    sg::elim::Wide cost = 0;
+    sg::order::FillGraph graph =
+        sg::order::fill_graph(sg::graph::adjacency(pattern), pattern.dim, stage, 1'000'000);
     REQUIRE(graph.exact);
-    for (Index v; (v = some_alive(graph.variables, random)) >= 0; sg::eliminate(graph, v)) {
+    for (Index v; (v = some_alive(graph.variables, random)) >= 0; sg::order::eliminate(graph, v)) {
       cost += follow(literal, graph.variables.order, done);
       for (Index u = 0; u < n; ++u) {
         if (!graph.variables.alive[u]) continue;
@@ -166,11 +167,11 @@ TEST_CASE("the quotient graph's fronts are exact, its degrees and fills bounds",
     const std::vector<int> stage = trial % 2 == 0 ? std::vector<int>{} : odd_stages(random, n);
     Literal literal(pattern);
     std::size_t done = 0;
-    sg::Wide cost = 0;
-    sg::QuotientGraph graph =
-        sg::quotient_graph(sg::fill_graph(sg::adjacency(pattern), pattern.dim, stage, 0));
+    sg::elim::Wide cost = 0;
+    sg::order::QuotientGraph graph = sg::order::quotient_graph(
+        sg::order::fill_graph(sg::graph::adjacency(pattern), pattern.dim, stage, 0));
     for (Index v; (v = some_alive(graph.variables, random)) >= 0;) {
-      sg::eliminate(graph, v);
+      sg::order::eliminate(graph, v);
       cost += follow(literal, graph.variables.order, done);
       std::set<Index> front;
       for (Index i : graph.members[v]) front.merge(members(graph.variables, i));
@@ -192,21 +193,22 @@ TEST_CASE("better_first finds a cheaper pair that leaves the same graph", "[wmf]
   int found = 0;
   for (int trial = 0; trial < 1000; ++trial) {
     const Pattern pattern = odd_pattern(random, draw(random, 2, 13));
-    const sg::FillGraph graph = sg::fill_graph(sg::adjacency(pattern), pattern.dim, {}, 1'000'000);
+    const sg::order::FillGraph graph =
+        sg::order::fill_graph(sg::graph::adjacency(pattern), pattern.dim, {}, 1'000'000);
     const Index v = some_alive(graph.variables, random);
-    sg::FillGraph one = graph;
-    const Index first = sg::better_first(one, v);
+    sg::order::FillGraph one = graph;
+    const Index first = sg::order::better_first(one, v);
     if (first == v) continue;
     ++found;
-    sg::FillGraph other = graph;
-    sg::eliminate(one, first);
+    sg::order::FillGraph other = graph;
+    sg::order::eliminate(one, first);
     Literal after(pattern), after_other(pattern);
     std::size_t done = 0, done_other = 0;
-    if (one.variables.alive[v]) sg::eliminate(one, v);
-    sg::eliminate(other, v);
-    if (other.variables.alive[first]) sg::eliminate(other, first);
+    if (one.variables.alive[v]) sg::order::eliminate(one, v);
+    sg::order::eliminate(other, v);
+    if (other.variables.alive[first]) sg::order::eliminate(other, first);
     if (one.variables.order.size() != other.variables.order.size()) continue;  // merged with more
-    const sg::Wide cost = follow(after, one.variables.order, done);
+    const sg::elim::Wide cost = follow(after, one.variables.order, done);
     CHECK(cost < follow(after_other, other.variables.order, done_other));
     const std::set<Index> gone(one.variables.order.begin(), one.variables.order.end());
     for (Index u = 0; u < pattern.variables(); ++u) {
@@ -221,23 +223,23 @@ TEST_CASE("greedy passes: a permutation by stages, with its own exact EC", "[wmf
   for (int trial = 0; trial < 600; ++trial) {
     const Index n = draw(random, 0, 59);
     const Pattern pattern = odd_pattern(random, n);
-    sg::GreedyOptions options;
+    sg::order::GreedyOptions options;
     if (trial % 2 == 0) options.stage = odd_stages(random, n);
-    if (trial % 3 == 0) options.score = sg::FillScore::plain;
+    if (trial % 3 == 0) options.score = sg::order::FillScore::plain;
     if (trial % 5 == 0) options.seed = static_cast<std::uint64_t>(trial);
     if (trial % 7 == 0) options.jitter = 0.5;
     options.exact_work = trial % 11;  // from bounds alone over a change in between to exact alone
-    const sg::Adjacency graph = sg::adjacency(pattern);
-    const sg::GreedyResult result = sg::greedy_fill(pattern, graph, options);
+    const sg::graph::Adjacency graph = sg::graph::adjacency(pattern);
+    const sg::order::GreedyResult result = sg::order::greedy_fill(pattern, graph, options);
     REQUIRE(is_permutation_of(result.order, n));
     REQUIRE(result.ec == ec(pattern, result.order));
-    REQUIRE(sg::greedy_fill(pattern, graph, options).order == result.order);
+    REQUIRE(sg::order::greedy_fill(pattern, graph, options).order == result.order);
     for (Index k = 1; k < n && !options.stage.empty(); ++k) {
       REQUIRE(options.stage[result.order[k - 1]] <= options.stage[result.order[k]]);
     }
     if (n == 0) continue;
     options.limit = result.ec / 2;
-    REQUIRE(sg::greedy_fill(pattern, graph, options).order.empty());
+    REQUIRE(sg::order::greedy_fill(pattern, graph, options).order.empty());
   }
 }
 
@@ -245,9 +247,9 @@ TEST_CASE("ties go to the lowest index, or by seed", "[wmf]") {
   std::vector<Row> rows;
   for (Index j = 0; j < 100; ++j) rows.push_back({j, (j + 1) % 100});
   const Pattern cycle = make_pattern(std::vector<int>(100, 3), rows);
-  CHECK(sg::wmf(cycle).front() == 0);
-  CHECK(sg::wmf(cycle, {{}, 1}) == sg::wmf(cycle, {{}, 1}));
-  CHECK(sg::wmf(cycle, {{}, 1}) != sg::wmf(cycle, {{}, 2}));
+  CHECK(sg::order::wmf(cycle).front() == 0);
+  CHECK(sg::order::wmf(cycle, {{}, 1}) == sg::order::wmf(cycle, {{}, 1}));
+  CHECK(sg::order::wmf(cycle, {{}, 1}) != sg::order::wmf(cycle, {{}, 2}));
 }
 
 TEST_CASE("chordal graphs are eliminated without fill", "[wmf]") {
@@ -265,14 +267,15 @@ TEST_CASE("chordal graphs are eliminated without fill", "[wmf]") {
       rows.push_back(row);
     }
     const Pattern pattern = make_pattern(std::vector<int>(n, 3), rows);
-    const sg::Score score = sg::score(sg::symbolic(pattern, sg::wmf(pattern)));
-    CHECK(score.nnz == sg::system_nnz(pattern));
+    const sg::elim::Score score =
+        sg::elim::score(sg::elim::symbolic(pattern, sg::order::wmf(pattern)));
+    CHECK(score.nnz == sg::elim::system_nnz(pattern));
   }
 }
 
 TEST_CASE("a queue gives its smallest key, ties by rank", "[wmf]") {
   Random random(6);
-  sg::MinQueue queue(50);
+  sg::order::MinQueue queue(50);
   std::iota(queue.rank.rbegin(), queue.rank.rend(), 0);
   std::set<std::pair<double, std::pair<Index, Index>>> oracle;
   const auto entry = [&](Index v) { return std::pair(queue.key[v], std::pair(queue.rank[v], v)); };
@@ -280,24 +283,24 @@ TEST_CASE("a queue gives its smallest key, ties by rank", "[wmf]") {
     const Index v = draw(random, 0, 49);
     if (queue.holds(v)) oracle.erase(entry(v));
     if (draw(random, 0, 2) == 0) {
-      sg::erase(queue, v);
+      sg::order::erase(queue, v);
     } else {
-      sg::set_key(queue, v, draw(random, 0, 19));
+      sg::order::set_key(queue, v, draw(random, 0, 19));
       oracle.insert(entry(v));
     }
     REQUIRE(queue.empty() == oracle.empty());
     if (queue.empty() || draw(random, 0, 3) != 0) continue;
-    REQUIRE(sg::pop(queue) == oracle.begin()->second.second);
+    REQUIRE(sg::order::pop(queue) == oracle.begin()->second.second);
     oracle.erase(oracle.begin());
   }
 }
 
 TEST_CASE("degenerate graphs are ordered, however large", "[wmf]") {
-  CHECK(sg::wmf(make_pattern({}, {})).empty());
-  CHECK(sg::wmf(make_pattern({6}, {{0}, {}})) == Order{0});
+  CHECK(sg::order::wmf(make_pattern({}, {})).empty());
+  CHECK(sg::order::wmf(make_pattern({6}, {{0}, {}})) == Order{0});
 
   CHECK(is_ordered(star(100'000)));
-  const Order order = sg::wmf(star(1000));
+  const Order order = sg::order::wmf(star(1000));
   CHECK(std::find(order.begin(), order.end(), 0) - order.begin() >= 998);
 
   Row all(2000);
@@ -328,9 +331,10 @@ TEST_CASE("wmf is not above the better of colamd and amd on public graphs", "[wm
        {"CSAIL.g2o", "tinyGrid3D.g2o", "smallGrid3D.g2o", "intel.g2o", "kitti_00.g2o",
         "manhattan.g2o", "sphere2500.g2o", "torus3D.g2o", "city10000.g2o"}) {
     INFO(file);
-    const Pattern pattern = sg::graph_pattern(sg::read_graph(*folder + "/" + file)).pattern;
-    const sg::Wide colamd = ec(pattern, sg::elimination_order("colamd", pattern));
-    const sg::Wide amd = ec(pattern, sg::elimination_order("amd", pattern));
-    CHECK(100 * ec(pattern, sg::wmf(pattern)) <= 101 * std::min(colamd, amd));
+    const Pattern pattern =
+        sg::graph::graph_pattern(sg::formats::read_graph(*folder + "/" + file)).pattern;
+    const sg::elim::Wide colamd = ec(pattern, sg::order::elimination_order("colamd", pattern));
+    const sg::elim::Wide amd = ec(pattern, sg::order::elimination_order("amd", pattern));
+    CHECK(100 * ec(pattern, sg::order::wmf(pattern)) <= 101 * std::min(colamd, amd));
   }
 }

@@ -15,26 +15,28 @@
 #include "lib/world/torus.h"
 #include "lib/world/worst.h"
 
+using namespace sg;
+
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using sg::Copy;
 using sg::Graph;
 using sg::Index;
+using sg::world::Copy;
 
 template <class World>
 std::string text_of_world(const World& world, Copy copy) {
   std::string text;
-  sg::Out out{[&](std::string_view piece) { text += piece; }};
+  sg::world::Out out{[&](std::string_view piece) { text += piece; }};
   write_graph(world, copy, out);
-  flush(out);
+  world::flush(out);
   return text;
 }
 
 Graph read(std::string text) {
-  return sg::read_graph_text(sg::text_of(std::move(text)), "world");
+  return sg::formats::read_graph_text(sg::text::text_of(std::move(text)), "world");
 }
 
 MatrixXd planar_pose(double x, double y, double theta) {
@@ -71,7 +73,7 @@ struct Camera {
 Camera camera_of(const Graph& graph) {
   std::vector<double> p;
   REQUIRE(graph.params.size() == 1);
-  param_numbers(graph, graph.params[0], p);
+  graph::param_numbers(graph, graph.params[0], p);
   if (p.size() == 4) return {p[0], p[0], p[1], p[2], MatrixXd::Identity(4, 4)};
   if (p.size() == 7) return {0, 0, 0, 0, spatial_pose(p.data())};
   REQUIRE(p.size() == 11);
@@ -145,10 +147,10 @@ std::map<std::string, ChiSquare> chi_squares(const Graph& truth, const Graph& me
   std::map<std::string, ChiSquare> result;
   std::vector<double> a, b, z;
   for (Index e = 0; e < measured.edges(); ++e) {
-    const sg::EdgeType& type = measured.type_of_edge(e);
-    vertex_numbers(truth, measured.edge(e)[0], a);
-    vertex_numbers(truth, measured.edge(e)[1], b);
-    edge_numbers(measured, e, z);
+    const sg::graph::EdgeType& type = measured.type_of_edge(e);
+    graph::vertex_numbers(truth, measured.edge(e)[0], a);
+    graph::vertex_numbers(truth, measured.edge(e)[1], b);
+    graph::edge_numbers(measured, e, z);
     const VectorXd error = error_of(type.tag, a, b, z, camera);
     const MatrixXd W = information_of(z, type.dim);
     REQUIRE(Eigen::LLT<MatrixXd>(W).info() == Eigen::Success);
@@ -188,60 +190,61 @@ void check_spine(const Graph& graph, Index poses) {
   for (Index e = 0; e < graph.edges(); ++e) {
     const auto ends = graph.edge(e);
     REQUIRE(ends.size() == 2);
-    const bool poses_only =
-        graph.role(ends[0]) == sg::Role::pose && graph.role(ends[1]) == sg::Role::pose;
+    const bool poses_only = graph.role(ends[0]) == sg::graph::Role::pose &&
+                            graph.role(ends[1]) == sg::graph::Role::pose;
     if (poses_only && ends[1] == ends[0] + 1) ++odometry[ends[1]];
   }
   for (Index k = 1; k < poses; ++k) REQUIRE(odometry[k] == 1);
 }
 
-constexpr sg::Sensor sensors[] = {sg::Sensor::mono, sg::Sensor::xyz, sg::Sensor::disparity,
-                                  sg::Sensor::xy, sg::Sensor::bearing};
+constexpr sg::world::Sensor sensors[] = {sg::world::Sensor::mono, sg::world::Sensor::xyz,
+                                         sg::world::Sensor::disparity, sg::world::Sensor::xy,
+                                         sg::world::Sensor::bearing};
 
 }  // namespace
 
 TEST_CASE("the noise of sine is what its information claims", "[world]") {
-  for (const sg::Sensor sensor : sensors) {
+  for (const sg::world::Sensor sensor : sensors) {
     INFO("sensor " << static_cast<int>(sensor));
-    sg::Sine world;
+    sg::world::Sine world;
     world.poses = 150;
     world.sensor = sensor;
-    check_noise(sg::sine(world));
+    check_noise(sg::world::sine(world));
   }
 }
 
 TEST_CASE("the noise of worst is what its information claims", "[world]") {
-  for (const sg::Sensor sensor : sensors) {
-    sg::Worst world;
+  for (const sg::world::Sensor sensor : sensors) {
+    sg::world::Worst world;
     world.poses = 40;
     world.sensor = sensor;
-    check_noise(sg::worst(world));
+    check_noise(sg::world::worst(world));
   }
 }
 
 TEST_CASE("a world that no graph can hold is refused before it is made", "[world]") {
-  sg::Sine dense;
+  sg::world::Sine dense;
   dense.density = 1e9;
-  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
+  CHECK_THROWS_AS(sg::world::sine(dense), sg::text::Error);
   dense.density = 1e300;
-  CHECK_THROWS_AS(sg::sine(dense), sg::Error);
-  sg::Worst large;
+  CHECK_THROWS_AS(sg::world::sine(dense), sg::text::Error);
+  sg::world::Worst large;
   large.poses = large.landmarks = 100'000;
-  CHECK_THROWS_AS(sg::worst(large), sg::Error);
+  CHECK_THROWS_AS(sg::world::worst(large), sg::text::Error);
 }
 
 TEST_CASE("the noise of the other worlds is what their information claims", "[world]") {
-  check_noise(sg::manhattan({.poses = 1000}));
-  check_noise(sg::city({.poses = 1000}));
-  check_noise(sg::city({.poses = 1000, .sensor = sg::Sensor::bearing}));
-  check_noise(sg::sphere({.poses = 400}));
-  check_noise(sg::torus({.poses = 500}));
-  check_noise(sg::grid3d({.poses = 343}));
-  check_noise(sg::grid3d({.poses = 343, .walk = sg::GridWalk::random}));
+  check_noise(sg::world::manhattan({.poses = 1000}));
+  check_noise(sg::world::city({.poses = 1000}));
+  check_noise(sg::world::city({.poses = 1000, .sensor = sg::world::Sensor::bearing}));
+  check_noise(sg::world::sphere({.poses = 400}));
+  check_noise(sg::world::torus({.poses = 500}));
+  check_noise(sg::world::grid3d({.poses = 343}));
+  check_noise(sg::world::grid3d({.poses = 343, .walk = sg::world::GridWalk::random}));
 }
 
 TEST_CASE("sine lies in the regime of the paper", "[world]") {
-  const sg::LandmarkGraph world = sg::sine({});
+  const sg::world::LandmarkGraph world = sg::world::sine({});
   const Graph graph = read(text_of_world(world, Copy::noisy));
   check_spine(graph, 400);
   auto count = count_tags(graph);
@@ -257,11 +260,11 @@ TEST_CASE("sine lies in the regime of the paper", "[world]") {
 }
 
 TEST_CASE("sine keeps what a sensor sees, and its path its step", "[world]") {
-  sg::Sine world;
+  sg::world::Sine world;
   world.poses = 200;
-  world.sensor = sg::Sensor::xyz;
+  world.sensor = sg::world::Sensor::xyz;
   world.landmark.observations = 1;
-  const sg::LandmarkGraph graph = sg::sine(world);
+  const sg::world::LandmarkGraph graph = sg::world::sine(world);
   std::size_t observations = 0;
   for (std::size_t k = 0; k < graph.poses.size(); ++k) {
     const sg::SE2& pose = graph.poses[k];
@@ -286,13 +289,13 @@ TEST_CASE("sine keeps what a sensor sees, and its path its step", "[world]") {
 }
 
 TEST_CASE("landmarks that stay are triangulated", "[world]") {
-  sg::LandmarkGraph graph;
-  graph.sensor = sg::Sensor::bearing;
+  sg::world::LandmarkGraph graph;
+  graph.sensor = sg::world::Sensor::bearing;
   graph.poses = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   graph.landmarks = {{1000, 1, 0}, {2, 2, 0}, {5, 0, 0}, {3, 1, 0}};
   // Landmark 3 once, 2 along a line, 0 too far away.
   graph.seen = {{0, 3, 6, 9}, {3, 0, 1, 0, 1, 2, 0, 1, 2}};
-  sg::keep_triangulated(graph, {.observations = 2, .parallax = 1});
+  sg::world::keep_triangulated(graph, {.observations = 2, .parallax = 1});
   REQUIRE(graph.landmarks.size() == 1);
   CHECK(graph.landmarks[0] == Vector3d(2, 2, 0));
   CHECK(graph.seen.items == std::vector<Index>{0, 0, 0});
@@ -300,12 +303,12 @@ TEST_CASE("landmarks that stay are triangulated", "[world]") {
 }
 
 TEST_CASE("worst joins every landmark to every pose", "[world]") {
-  for (const sg::Sensor sensor : sensors) {
-    sg::Worst world;
+  for (const sg::world::Sensor sensor : sensors) {
+    sg::world::Worst world;
     world.poses = 7;
     world.landmarks = 11;
     world.sensor = sensor;
-    const Graph graph = read(text_of_world(sg::worst(world), Copy::noisy));
+    const Graph graph = read(text_of_world(sg::world::worst(world), Copy::noisy));
     check_spine(graph, 7);
     REQUIRE(graph.vertices() == 18);
     REQUIRE(graph.edges() == 6 + 7 * 11);
@@ -321,7 +324,7 @@ TEST_CASE("worst joins every landmark to every pose", "[world]") {
 
 TEST_CASE("loop closures join what is near", "[world]") {
   const auto nearest = [](const auto& graph, double reach) {
-    for (const sg::Loop& loop : graph.loops) {
+    for (const sg::world::Loop& loop : graph.loops) {
       REQUIRE(loop.from < loop.to - 1);
       const auto z = between(graph.truth(loop.from), graph.truth(loop.to));
       if constexpr (std::is_same_v<std::decay_t<decltype(z)>, sg::SE2>) {
@@ -334,36 +337,37 @@ TEST_CASE("loop closures join what is near", "[world]") {
                            [](const auto& a, const auto& b) { return a.to < b.to; }));
     REQUIRE(graph.loops.size() > static_cast<std::size_t>(graph.poses) / 4);
   };
-  nearest(sg::manhattan({.poses = 2000}), 1 + 1e-9);
-  nearest(sg::manhattan({.poses = 2000, .streets = {.block = 3, .side = 20}, .reach = 2}),
+  nearest(sg::world::manhattan({.poses = 2000}), 1 + 1e-9);
+  nearest(sg::world::manhattan({.poses = 2000, .streets = {.block = 3, .side = 20}, .reach = 2}),
           2 + 1e-9);
-  nearest(sg::sphere({.poses = 2500}), 1.01);
-  nearest(sg::torus({.poses = 5000}), 2);
-  nearest(sg::grid3d({.poses = 1000}), 1 + 1e-9);
-  nearest(sg::grid3d({.poses = 1000, .walk = sg::GridWalk::random}), 1 + 1e-9);
+  nearest(sg::world::sphere({.poses = 2500}), 1.01);
+  nearest(sg::world::torus({.poses = 5000}), 2);
+  nearest(sg::world::grid3d({.poses = 1000}), 1 + 1e-9);
+  nearest(sg::world::grid3d({.poses = 1000, .walk = sg::world::GridWalk::random}), 1 + 1e-9);
 }
 
 TEST_CASE("worlds have the sizes of the graphs they are named after", "[world]") {
   const auto edges = [](const auto& graph) {
     return graph.poses - 1 + static_cast<Index>(graph.loops.size());
   };
-  CHECK(edges(sg::sphere({.poses = 2500})) == 4949);                           // sphere2500
-  CHECK(edges(sg::torus({.poses = 5000})) == Approx(9048).epsilon(0.05));      // torus3D
-  CHECK(edges(sg::grid3d({.poses = 8000})) == Approx(22236).epsilon(0.05));    // grid3D
-  CHECK(edges(sg::manhattan({.poses = 3500})) == Approx(5453).epsilon(0.05));  // M3500
+  CHECK(edges(sg::world::sphere({.poses = 2500})) == 4949);                           // sphere2500
+  CHECK(edges(sg::world::torus({.poses = 5000})) == Approx(9048).epsilon(0.05));      // torus3D
+  CHECK(edges(sg::world::grid3d({.poses = 8000})) == Approx(22236).epsilon(0.05));    // grid3D
+  CHECK(edges(sg::world::manhattan({.poses = 3500})) == Approx(5453).epsilon(0.05));  // M3500
 }
 
 TEST_CASE("a grid's sweep closes every pair of neighbours when it misses none", "[world]") {
   for (const Index side : {2, 3, 4}) {
-    const auto graph = sg::grid3d({.poses = side * side * side, .side = side, .loop_chance = 1});
+    const auto graph =
+        sg::world::grid3d({.poses = side * side * side, .side = side, .loop_chance = 1});
     const std::size_t pairs = 3 * side * side * (side - 1);
     CHECK(graph.loops.size() == pairs - (graph.poses - 1));
   }
 }
 
 TEST_CASE("poses stay inside the city, on its streets, a metre apart", "[world]") {
-  sg::Random random = sg::random_stream(3, sg::Stream::structure);
-  const auto walk = sg::street_walk({.block = 4, .side = 10}, 5000, random);
+  sg::world::Random random = sg::world::random_stream(3, sg::world::Stream::structure);
+  const auto walk = sg::world::street_walk({.block = 4, .side = 10}, 5000, random);
   for (std::size_t k = 0; k < walk.size(); ++k) {
     REQUIRE(std::min(walk[k].x, walk[k].y) >= 0);
     REQUIRE(std::max(walk[k].x, walk[k].y) <= 12);  // whole blocks
@@ -374,9 +378,9 @@ TEST_CASE("poses stay inside the city, on its streets, a metre apart", "[world]"
 }
 
 TEST_CASE("city finds all landmarks in view", "[world]") {
-  const sg::City world{
+  const sg::world::City world{
       .poses = 300, .landmarks = 400, .optics = {.range = 7, .near = 0.1, .view = 120}};
-  const sg::LandmarkGraph graph = sg::city(world);
+  const sg::world::LandmarkGraph graph = sg::world::city(world);
   std::size_t seen = 0;
   for (const sg::SE2& pose : graph.poses) {
     for (const Vector3d& l : graph.landmarks) {
@@ -391,10 +395,10 @@ TEST_CASE("city finds all landmarks in view", "[world]") {
 
 TEST_CASE("a seed gives the same world again, another seed another", "[world]") {
   const auto text = [](std::uint64_t seed) {
-    sg::Sine world;
+    sg::world::Sine world;
     world.poses = 30;
     world.seed = seed;
-    return text_of_world(sg::sine(world), Copy::noisy);
+    return text_of_world(sg::world::sine(world), Copy::noisy);
   };
   CHECK(text(1) == text(1));
   CHECK(text(1) != text(2));
@@ -402,23 +406,23 @@ TEST_CASE("a seed gives the same world again, another seed another", "[world]") 
 }
 
 TEST_CASE("another noise moves no landmark and no pose of the truth", "[world]") {
-  sg::Sine world;
+  sg::world::Sine world;
   world.poses = 30;
-  const std::string before = text_of_world(sg::sine(world), Copy::exact);
-  world.guess = sg::Guess::truth;
+  const std::string before = text_of_world(sg::world::sine(world), Copy::exact);
+  world.guess = sg::world::Guess::truth;
   world.guess_noise = 0.5;
-  CHECK(text_of_world(sg::sine(world), Copy::exact) == before);
+  CHECK(text_of_world(sg::world::sine(world), Copy::exact) == before);
 }
 
 TEST_CASE("odometry adds up to the estimates", "[world]") {
-  const Graph graph = read(text_of_world(sg::manhattan({.poses = 500}), Copy::noisy));
+  const Graph graph = read(text_of_world(sg::world::manhattan({.poses = 500}), Copy::noisy));
   std::vector<double> a, b, z;
   for (Index e = 0; e < graph.edges(); ++e) {
     const auto ends = graph.edge(e);
     if (ends[1] != ends[0] + 1) continue;
-    vertex_numbers(graph, ends[0], a);
-    vertex_numbers(graph, ends[1], b);
-    edge_numbers(graph, e, z);
+    graph::vertex_numbers(graph, ends[0], a);
+    graph::vertex_numbers(graph, ends[1], b);
+    graph::edge_numbers(graph, e, z);
     CHECK((error_of("EDGE_SE2", a, b, z, {})).norm() < 1e-8);
   }
 }
@@ -426,9 +430,9 @@ TEST_CASE("odometry adds up to the estimates", "[world]") {
 TEST_CASE("numbers are rounded to nine digits after the point", "[world]") {
   const auto written = [](double x) {
     std::string text;
-    sg::Out out{[&](std::string_view piece) { text += piece; }};
-    number(out, x);
-    flush(out);
+    sg::world::Out out{[&](std::string_view piece) { text += piece; }};
+    world::number(out, x);
+    world::flush(out);
     return text;
   };
   CHECK(written(0) == " 0");
@@ -441,10 +445,10 @@ TEST_CASE("numbers are rounded to nine digits after the point", "[world]") {
   CHECK(written(-0.123456789499) == " -0.123456789");
   CHECK(written(8999999.125) == " 8999999.125");
   CHECK(written(1e20) == " 1e+20");
-  sg::Random random = sg::random_stream(1, sg::Stream::structure);
+  sg::world::Random random = sg::world::random_stream(1, sg::world::Stream::structure);
   for (int i = 0; i < 10000; ++i) {
-    const double x = sg::normal(random, std::pow(10, sg::uniform(random, -9, 6)));
-    CHECK(std::stod(written(x)) == sg::rounded(x));
-    CHECK(std::abs(sg::rounded(x) - x) <= 0.5e-9 + 1e-15 * std::abs(x));
+    const double x = sg::world::normal(random, std::pow(10, sg::world::uniform(random, -9, 6)));
+    CHECK(std::stod(written(x)) == sg::world::rounded(x));
+    CHECK(std::abs(sg::world::rounded(x) - x) <= 0.5e-9 + 1e-15 * std::abs(x));
   }
 }

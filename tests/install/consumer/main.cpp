@@ -8,15 +8,15 @@
 #include <iostream>
 
 int main(int, char** argv) {
-  const sg::Graph graph = sg::read_graph(argv[1]);
-  const sg::Pattern pattern = sg::graph_pattern(graph).pattern;
-  const sg::Order order = sg::elimination_order("colamd", pattern);
-  std::cout << sg::to_string(sg::elimination_complexity(pattern, order)) << '\n';
+  const sg::Graph graph = sg::formats::read_graph(argv[1]);
+  const sg::graph::Pattern pattern = sg::graph::graph_pattern(graph).pattern;
+  const sg::graph::Order order = sg::order::elimination_order("colamd", pattern);
+  std::cout << sg::elim::to_string(sg::elim::elimination_complexity(pattern, order)) << '\n';
 
-  const sg::Problem problem = sg::make_problem(graph);
-  sg::Values values = sg::initial_values(problem);
-  sg::LinearSystem system = sg::make_linear_system(problem);
-  const auto solver = sg::find_backend("cholmod").make(system, order, 1);
-  const auto result = sg::optimize(problem, system, solver, {}, values);
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
+  sg::factor::Values values = sg::factor::initial_values(problem);
+  sg::factor::LinearSystem system = sg::factor::make_linear_system(problem);
+  const auto solver = sg::solve::find_backend("cholmod").make(system, order, 1);
+  const auto result = sg::solve::optimize(problem, system, solver, {}, values);
   std::cout << (result.converged ? "solved" : "not solved") << '\n';
 }
