@@ -206,6 +206,12 @@ std::vector<double> free_scaling(const Problem& problem, const Values& values,
         if (rows.length[i] > 0) work((rows.motions.row(i) / rows.length[i]).eval());
       }
     }
+    for (Index v = 0; v < problem.graph->vertices(); ++v) {  // what must not move counts, too
+      const Index j = problem.variables.vertex_variable[v];
+      if (j >= 0 && j != problem.held) continue;
+      const Motions rows = motions_of(problem, values, v, frame);
+      for (Eigen::Index i = 0; i < rows.rows(); ++i) work(rows.row(i).eval());
+    }
   };
   Gram gram = Gram::Zero();
   for_rows([&](const auto& row) { gram += row.transpose() * row; });

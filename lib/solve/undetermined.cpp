@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_ranges = 20;  // in a message
 constexpr int draws = 3;             // of vectors of the null space: none hides a variable thrice
-constexpr double noticeable = 1e-6;  // share of the largest movement in its part
+constexpr double noticeable = 1e-6;  // share of the mean movement in its part
 constexpr double rounding = 1e-12;   // |A z| beside |z|, all columns of unit length
 
 // The parts of a pattern: no row has variables of two of them. By variable, its part's first.
@@ -112,6 +112,9 @@ NullSpace null_space(const factor::LinearSystem& system, std::span<const double>
   for (std::size_t k = 0; k < along.size(); ++k) along[k] *= search.length[k];
   result.scale = !along.empty();
 
+  const auto size = sums(
+      search.part.size(), pattern.variables(), [&](Index j) { return search.part[j]; },
+      [](Index) { return 1.0; });
   std::vector<bool> moves(pattern.variables(), false), costs(pattern.variables(), false);
   std::mt19937 bits(1);
   for (int draw = 0; draw < draws; ++draw) {
@@ -125,7 +128,7 @@ NullSpace null_space(const factor::LinearSystem& system, std::span<const double>
     if (!along.empty()) remove(search, along, z);
     for (Index j = 0; j < pattern.variables(); ++j) {
       const Index c = search.part[j];
-      if (!(search.dot(j, z, z) > noticeable * noticeable * square[c])) continue;
+      if (!(search.dot(j, z, z) > noticeable * noticeable * square[c] / size[c])) continue;
       (cost[c] <= rounding * rounding * square[c] ? moves : costs)[j] = true;
     }
   }
