@@ -219,8 +219,8 @@ constexpr auto SE2 = VertexTag::se2, XY = VertexTag::xy, LINE2D = VertexTag::lin
                SEGMENT2D = VertexTag::segment2d, WHEELS = VertexTag::wheels, SE3 = VertexTag::se3,
                TRACKXYZ = VertexTag::trackxyz, LINE3D = VertexTag::line3d, PLANE = VertexTag::plane,
                EXPMAP = VertexTag::expmap, XYZ = VertexTag::xyz, CAM = VertexTag::cam,
-               CAMERA_BAL = VertexTag::bal_camera,
-               SIM3 = VertexTag::sim3, TORO2 = VertexTag::toro2, TORO3 = VertexTag::toro3;
+               CAMERA_BAL = VertexTag::bal_camera, SIM3 = VertexTag::sim3, TORO2 = VertexTag::toro2,
+               TORO3 = VertexTag::toro3;
 constexpr auto OFFSET2 = ParamTag::se2_offset, OFFSET3 = ParamTag::se3_offset,
                CAMERA = ParamTag::camera, PINHOLE = ParamTag::pinhole;
 using enum Space;
