@@ -90,9 +90,11 @@ void add_options(cmd::Command& command, Options& options) {
 void show(const cmd::Command& /*command*/, const Options& options) {
   const text::Text text = cmd::read_text(options.input);
   const Graph graph = cmd::read(options.input, text);
-  const auto columns = with_tags(facts, text.view);
-  Row row{graph, formats::find_format(options.input.options, text.view).name,
-          graph::summarize(graph)};
+  const formats::ReadFormat& format = formats::find_format(options.input.options, text.view);
+  // A format whose lines begin with numbers has no tags but those of what it is read as.
+  const bool tagless = format.to_g2o && format.begins("0");
+  const auto columns = with_tags(facts, tagless ? graph.text.view : text.view);
+  Row row{graph, format.name, graph::summarize(graph)};
   cmd::Output output(options.output.path);
   if (options.table.json) {
     cmd::Table(options.table, columns, {}, output).row(row);

@@ -40,7 +40,7 @@ struct Bundle {
     for (const auto& [i, j] : seen) {
       const Eigen::Vector2d z = pixel(cameras[i], points[j]);
       out += std::to_string(i) + " " + std::to_string(j) + "    ";
-      text::append_numbers(out, z);
+      text::append_numbers(out, {z.data(), 2});
       out += "\n";
     }
     const auto line = [&](double number, double unit) {

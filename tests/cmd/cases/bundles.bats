@@ -10,6 +10,7 @@ setup() {
   [ "$(sg-info --no-header -f format,vertices,edges,dim desk.bal 2> said)" = "$(printf 'bal\t21\t69\t93')" ]
   [ ! -s said ]
   [ "$(sg-info --no-header -f poses,landmarks desk.bal)" = "$(printf '5\t16')" ]
+  sg-info desk.bal | tail -n 3 | diff - <(printf 'EDGE_OBSERVATION_BAL\t69\nVERTEX_CAMERA_BAL\t5\nVERTEX_XYZ\t16\n')
   sg-ec -f ec desk.bal > ec
   sg-ec -f ec < desk.bal | diff ec -
   sed 's/$/\r/' desk.bal | sg-ec -f ec | diff ec -
