@@ -62,6 +62,12 @@ unit='1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1'
       '<stdin>:3: error: the information matrix of EDGE_SE2 is not positive semidefinite'
 }
 
+@test "lines are counted from the first, be it blank" {
+  printf '\nVERTEX_SE2 1 0 0 0\nEDGE_SE2 1 1 0 0 0 1 0 0 1 0 1\n' >in.g2o
+  run -1 sg-check in.g2o
+  [ "$output" = "in.g2o:3: error: EDGE_SE2 joins vertex 1 to itself" ]
+}
+
 @test "TORO's own order of the information is known" {
   printf 'VERTEX_SE2 9 0 0 0\nVERTEX2 1 0 0 0\nVERTEX2 2 0 0 0\nEDGE2 1 2 0 0 0 1 0.9 1 1 0 0\n' |
     finds '<stdin>:1: warning: vertex 9 is not connected to the rest'
