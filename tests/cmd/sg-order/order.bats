@@ -37,7 +37,7 @@ others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
   printf 'VERTEX_SE2 1 1 0 0\nROBOTLASER1 0 1\nROBOTLASER1 0 2\n# between\nVERTEX_SE2 2 2 0 0' >in.g2o
   printf '2\n1\n' >order
   sg-order --apply order --no-trace-comment in.g2o >out.g2o
-  printf '# sg-order: apply\nVERTEX_SE2 2 2 0 0\n# between\nVERTEX_SE2 1 1 0 0\nROBOTLASER1 0 1\nROBOTLASER1 0 2' |
+  printf '# sg-order: apply\nVERTEX_SE2 2 2 0 0\nVERTEX_SE2 1 1 0 0\nROBOTLASER1 0 1\nROBOTLASER1 0 2\n# between\n' |
     cmp - out.g2o
 }
 
