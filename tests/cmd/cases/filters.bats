@@ -130,7 +130,7 @@ pose='VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 2 0 0\nEDGE_SE2 0 1 1
 
 @test "an order is no longer one when the graph has changed" {
   sg-gen city -n 200 > city.g2o
-  for filter in "sg-dec -r 4" "sg-rand -r 2" "sg-kf -r 2" "sg-tgreedy -r 2" "sg-cut --poses 0-99"; do
+  for filter in "sg-dec -r 4" "sg-rand -r 2" "sg-kf -r 2" "sg-tgreedy -r 2" "sg-cut --poses 100"; do
     sg-order -m amd city.g2o | $filter > after.g2o
     $filter city.g2o > fresh.g2o
     [ "$(sg-ec --no-header -f order,ec after.g2o)" = "$(sg-ec --no-header -m colamd -f order,ec fresh.g2o)" ]
