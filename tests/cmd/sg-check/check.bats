@@ -32,7 +32,7 @@ unit='1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1'
   run -1 sg-check broken.g2o
   printf '%s\n' "${lines[@]}" >out
   cut -d: -f2 out | sort -nc
-  [ "$(wc -l <out)" = 13 ]
+  [ "$(wc -l <out)" = 14 ]
   run -1 sg-check -q broken.g2o
   [ "$output" = "$(grep ': error: ' out)" ]
 }
