@@ -20,7 +20,13 @@ std::vector<Message> messages(const std::string& path, formats::ReadOptions opti
   options.complaint = [&](const text::Error& error) {
     found.push_back({error.line, true, error.what()});
   };
-  const Graph graph = formats::read_graph(path, options);
+  cmd::begin_reading(path);
+  text::Text source = text::read_text(path);
+  const std::string_view format = formats::find_format(options, source.view).name;
+  const std::size_t bytes = source.view.size();
+  const Graph graph = formats::read_graph_text(std::move(source), text::input_name(path), options);
+  cmd::note_graph(graph, format, bytes);
+  cmd::stage("check");
   if (graph.vertices() == 0) found.push_back({0, true, "there is no vertex and no edge in it"});
   // Findings ascend: their numbers take one pass over the text.
   std::size_t number = 1;
@@ -31,6 +37,7 @@ std::vector<Message> messages(const std::string& path, formats::ReadOptions opti
     at = std::max(at, finding.line);
     found.push_back({number, finding.error, finding.cause});
   }
+  cmd::note(std::to_string(found.size()) + " findings");
   std::stable_sort(found.begin(), found.end(),
                    [](const Message& a, const Message& b) { return a.line < b.line; });
   return found;

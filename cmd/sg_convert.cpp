@@ -60,6 +60,7 @@ void convert(const cmd::Command& command, const Options& options) {
   if (options.write.scalar && options.to != "mtx")
     throw text::usage_error("--scalar belongs to --to mtx");
   Graph graph = cmd::read(options.input);
+  cmd::stage("convert");
   report_losses(command, options, graph);
   if (graph.edges_only && (options.estimates || options.to == "tum"))
     graph = with_estimates(command, graph, options.input.options);

@@ -90,6 +90,7 @@ void add_options(cmd::Command& command, Options& options) {
 void show(const cmd::Command& /*command*/, const Options& options) {
   const text::Text text = cmd::read_text(options.input);
   const Graph graph = cmd::read(options.input, text);
+  cmd::stage("count");
   const auto columns = with_tags(facts, text.view);
   Row row{graph, formats::find_format(options.input.options, text.view).name,
           graph::summarize(graph)};

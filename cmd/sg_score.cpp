@@ -94,6 +94,7 @@ void add_options(cmd::Command& command, Options& options) {
 }
 
 score::Trajectory read_trajectory(const std::string& path, const formats::ReadOptions& options) {
+  cmd::begin_reading(path);
   const text::Text text = text::read_text(path);
   if (!formats::looks_like_tum(text.view))
     return score::trajectory(formats::read_graph_text(text, path, options));
@@ -122,12 +123,14 @@ void run(const cmd::Command& /*command*/, const Options& options) {
                          {"--reference", !options.reference.empty()}};
   cmd::Output output(options.output.path);
   cmd::Table table(options.table, columns, given, output);
+  output.keep_rows();
   std::optional<score::Trajectory> reference;
   if (!options.reference.empty())
     reference = read_trajectory(options.reference, options.inputs.options);
   const trees::Weights weights = trees::tree_weights(options.weights).value();
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
+    cmd::stage("score");
     const cmd::Method method = cmd::methods(options.method, graph).front();
     table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
   }

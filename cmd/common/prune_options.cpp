@@ -62,6 +62,7 @@ void add_amount(Command& command, Amount& amount) {
 Prunable read_prunable(const PruneOptions& options) {
   Prunable result;
   result.graph = read(options.input);
+  stage("prune");
   result.poses = graph::pose_index(result.graph);
   result.kind = candidates_named(options.candidates, result.graph);
   result.candidates = prune::candidate_edges(result.graph, result.poses, result.kind);
@@ -81,15 +82,13 @@ std::size_t kept_count(const Amount& amount, const Prunable& prunable,
                   prune::candidate_edges(like, graph::pose_index(like), prunable.kind).size());
 }
 
-formats::Changes pruned(const Command& command, const Graph& graph, const graph::PoseIndex& poses,
-                        Index min_obs, prune::Removal removal) {
+formats::Changes pruned(const Graph& graph, const graph::PoseIndex& poses, Index min_obs,
+                        prune::Removal removal) {
   prune::sweep_landmarks(graph, poses, min_obs, removal);
-  if (command.verbose) {
-    const auto vertices = std::count(removal.vertex.begin(), removal.vertex.end(), true);
-    const auto edges = std::count(removal.edge.begin(), removal.edge.end(), true);
-    warn(command, "removed " + counted(vertices, removal.vertex.size(), "vertices") + ", " +
-                      counted(edges, removal.edge.size(), "edges"));
-  }
+  const auto vertices = std::count(removal.vertex.begin(), removal.vertex.end(), true);
+  const auto edges = std::count(removal.edge.begin(), removal.edge.end(), true);
+  note("removed " + counted(vertices, removal.vertex.size(), "vertices") + ", " +
+       counted(edges, removal.edge.size(), "edges"));
   formats::Changes changes;
   changes.drop_vertex = std::move(removal.vertex);
   changes.drop_edge = std::move(removal.edge);
@@ -100,7 +99,7 @@ void write_pruned(const Command& command, const PruneOptions& options, const Pru
                   prune::Removal removal) {
   const auto& [graph, poses, kind, candidates] = prunable;
   write_filtered(command, options.output, graph,
-                 pruned(command, graph, poses, options.min_obs, std::move(removal)));
+                 pruned(graph, poses, options.min_obs, std::move(removal)));
 }
 
 void prune(const Command& command, const PruneOptions& options,

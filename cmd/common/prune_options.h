@@ -44,8 +44,8 @@ std::size_t kept_count(const Amount& amount, const Prunable& prunable,
                        const formats::ReadOptions& options);
 
 // The changes to a graph that a removal makes, after a sweep of its landmarks; -v reports them.
-formats::Changes pruned(const Command& command, const Graph& graph, const graph::PoseIndex& poses,
-                        Index min_obs, prune::Removal removal);
+formats::Changes pruned(const Graph& graph, const graph::PoseIndex& poses, Index min_obs,
+                        prune::Removal removal);
 // Writes the graph without what a removal makes leave.
 void write_pruned(const Command& command, const PruneOptions& options, const Prunable& prunable,
                   prune::Removal removal);
