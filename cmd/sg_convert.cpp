@@ -42,8 +42,9 @@ Graph with_estimates(const cmd::Command& command, const Graph& graph,
   return formats::read_graph_text(text::text_of(std::move(text)), graph.file, options);
 }
 
-// One line of what the format cannot hold: an error where a part of the graph would be missing.
-void report_losses(const cmd::Command& command, const Options& options, const Graph& graph) {
+// What the format cannot hold, a line each: thrown where a part of the graph would be missing.
+std::vector<std::string> losses(const Options& options, const Graph& graph) {
+  std::vector<std::string> said;
   for (const formats::Loss& loss : formats::find_write_format(options.to).losses(graph)) {
     const bool error = loss.structure && !options.lossy;
     std::string cause = options.to + " cannot hold " + loss.what + " (" +
@@ -51,8 +52,9 @@ void report_losses(const cmd::Command& command, const Options& options, const Gr
     cause += error ? "; --lossy leaves them out)" : ", left out)";
     const text::Error at_line = graph::error_at(graph, loss.first, cause);
     if (error) throw at_line;
-    cmd::warn(command, text::message(at_line));
+    said.push_back(text::message(at_line));
   }
+  return said;
 }
 
 void convert(const cmd::Command& command, const Options& options) {
@@ -61,12 +63,13 @@ void convert(const cmd::Command& command, const Options& options) {
     throw text::usage_error("--scalar belongs to --to mtx");
   Graph graph = cmd::read(options.input);
   cmd::stage("convert");
-  report_losses(command, options, graph);
-  if (graph.edges_only && (options.estimates || options.to == "tum"))
+  const std::vector<std::string> lost = losses(options, graph);
+  if (graph.edges_only && (options.estimates || format.estimates))
     graph = with_estimates(command, graph, options.input.options);
   cmd::Output output(options.output.path);
   format.write(graph, options.write, output);
   output.commit();
+  for (const std::string& line : lost) cmd::warn(command, line);
 }
 
 std::string known_formats() {

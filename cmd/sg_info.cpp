@@ -26,7 +26,7 @@ std::optional<double> average(std::int64_t sum, std::int64_t count) {
 // The facts of every graph. Those of a file's tags follow them.
 const std::vector<cmd::Column<Row>> facts{
     {"file", "The name as given", [](Row& row) { return row.graph.file; }},
-    {"format", "g2o, toro or isam", [](Row& row) { return row.format; }},
+    {"format", "g2o, toro, isam, tum or kitti", [](Row& row) { return row.format; }},
     {"vertices", "All of them", [](Row& row) { return row.graph.vertices(); }},
     count("poses", "Vertices that are poses", &graph::Summary::poses),
     count("landmarks", "Vertices that are landmarks", &graph::Summary::landmarks),

@@ -108,6 +108,7 @@ void add_thresholds(CLI::App& app, solve::Isam2Options& isam) {
 
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_input(command, options.input);
+  options.input.options.unknown_edge = factor::has_no_model;
   auto& app = command.app;
   app.add_option("-m,--method,--ordering", options.isam.ordering,
                  "Ordering to eliminate anew by (default: colamd)")

@@ -5,7 +5,6 @@
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
-#include "formats/tum.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/geometry/numbers.h"
@@ -81,7 +80,8 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
   cmd::add_weights(command.app, options.weights, "Of log_trees and lambda2");
   command.app
-      .add_option("--reference", options.reference, "A graph or a TUM trajectory, for ATE and RPE")
+      .add_option("--reference", options.reference,
+                  "A graph or a trajectory (TUM, KITTI),\nfor ATE and RPE")
       ->option_text("FILE");
   command.app
       .add_option("--align", options.align,
@@ -93,17 +93,11 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_table(command, options.table, columns);
 }
 
-score::Trajectory read_trajectory(const std::string& path, const formats::ReadOptions& options) {
+// A graph's or a trajectory's file, of any format: it need not be that of the graphs.
+score::Trajectory read_trajectory(const std::string& path, formats::ReadOptions options) {
+  options.format.clear();
   cmd::begin_reading(path);
-  const text::Text text = text::read_text(path);
-  if (!formats::looks_like_tum(text.view))
-    return score::trajectory(formats::read_graph_text(text, path, options));
-  score::Trajectory result;
-  for (const auto& [id, n] : formats::read_tum(text.view, path)) {
-    result.id.push_back(id);
-    result.pose.push_back(geometry::normalized(geometry::se3(n.data())));
-  }
-  return result;
+  return score::trajectory(formats::read_graph(path, options));
 }
 
 // Columns of a reference are asked for in vain without one.

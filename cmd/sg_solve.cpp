@@ -70,6 +70,7 @@ constexpr int most_iterations = 100;
 
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_input(command, options.input);
+  options.input.options.unknown_edge = factor::has_no_model;
   auto& app = command.app;
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
   app.add_option(

@@ -19,17 +19,17 @@ Losses nothing(const Graph&) {
 }
 
 void write_g2o(const Graph& graph, const WriteOptions&, Sink& sink) {
-  sink.write(graph.text.view);
+  write_changed(graph, unchanged(graph), "", sink);
 }
 
 constexpr std::array formats{
     WriteFormat{"g2o", "g2o text", nothing, write_g2o},
-    WriteFormat{"toro", "TORO", toro_losses, write_toro},
+    WriteFormat{"toro", "TORO", toro_losses, write_toro, true},
     WriteFormat{"isam", "iSAM", isam_losses, write_isam},
     WriteFormat{"mtx", "Matrix Market pattern of A^T A", nothing, write_mtx},
     WriteFormat{"metis", "METIS graph", nothing, write_metis},
     WriteFormat{"dot", "Graphviz", nothing, write_dot},
-    WriteFormat{"tum", "TUM trajectory", tum_losses, write_tum},
+    WriteFormat{"tum", "TUM trajectory", tum_losses, write_tum, true},
 };
 
 }  // namespace

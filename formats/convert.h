@@ -38,6 +38,7 @@ struct WriteFormat {
   // What of the graph would be lost; the writer leaves exactly that out.
   Losses (*losses)(const Graph& graph);
   void (*write)(const Graph& graph, const WriteOptions& options, Sink& sink);
+  bool estimates = false;  // a line a vertex: of an edges-only file they have to be composed first
 };
 std::span<const WriteFormat> write_formats();
 // Throws a usage Error that lists the names.

@@ -9,6 +9,13 @@ Matrix6d scaled(const Matrix6d& information, double rotation) {
   return s.asDiagonal() * information * s.asDiagonal();
 }
 
+Eigen::Quaterniond read_quaternion(std::string_view& rest) {
+  Eigen::Quaterniond q;
+  for (double& number : q.coeffs()) number = text::read_number(rest);
+  if (!(q.norm() > 0)) throw text::BadLine{"a quaternion has length zero"};
+  return q.normalized();
+}
+
 }  // namespace
 
 Matrix6d to_quaternion_information(const Matrix6d& information) {
@@ -28,12 +35,16 @@ void translate_euler_pose(std::string_view& rest, std::string& out) {
   for (const double number : q.coeffs()) text::append_number(out, number);
 }
 
+void copy_quaternion_pose(std::string_view& rest, std::string& out) {
+  auto copy = rest;
+  text::copy_numbers(rest, 7, out);
+  for (int k = 0; k < 3; ++k) text::read_number(copy);
+  read_quaternion(copy);
+}
+
 void translate_quaternion_pose(std::string_view& rest, std::string& out) {
   text::copy_numbers(rest, 3, out);
-  Eigen::Quaterniond q;
-  for (double& number : q.coeffs()) number = text::read_number(rest);
-  if (!(q.norm() > 0)) throw text::BadLine{"the quaternion is zero"};
-  for (const double angle : geometry::roll_pitch_yaw(q.normalized())) {
+  for (const double angle : geometry::roll_pitch_yaw(read_quaternion(rest))) {
     text::append_number(out, angle + 0.0);  // no -0
   }
 }

@@ -44,7 +44,10 @@ Matrix6d to_euler_information(const Matrix6d& information);
 
 // "x y z roll pitch yaw" at the front of `rest`, appended as " x y z qx qy qz qw".
 void translate_euler_pose(std::string_view& rest, std::string& out);
-// "x y z qx qy qz qw" at the front of `rest`, appended as " x y z roll pitch yaw".
+// "x y z qx qy qz qw" at the front of `rest`, appended as it is written; BadLine for a quaternion of
+// length zero.
+void copy_quaternion_pose(std::string_view& rest, std::string& out);
+// The same, appended as " x y z roll pitch yaw".
 void translate_quaternion_pose(std::string_view& rest, std::string& out);
 
 }  // namespace sg::formats

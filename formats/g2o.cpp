@@ -50,6 +50,8 @@ struct LineCounter {
 struct Parser {
   Graph graph;
   const Complaint& complaint;
+  const LeaveOut& leave_out;
+  std::vector<Id> left_out;  // ids of vertices that were left out, ascending in the end
   IdList edge_ids;
   std::vector<Fix> fixes;
   std::string_view last_tag;  // runs of lines share their tag: look it up once
@@ -57,7 +59,8 @@ struct Parser {
 
   LineCounter line_number;
 
-  explicit Parser(const Complaint& complaint_) : complaint(complaint_) {}
+  Parser(const Complaint& complaint_, const LeaveOut& leave_out_)
+      : complaint(complaint_), leave_out(leave_out_) {}
 
   void complain(Offset line, const std::string& cause) {
     complaint(text::input_error(graph.file, line_number(graph.text.view, line), cause));
@@ -152,6 +155,13 @@ void parse_comment(Parser& parser, Offset at, std::string_view comment) {
   parser.graph.order_lines.push_back(at);
 }
 
+// A line that is not read. If it may define a vertex, edges to that go with it.
+void leave_out(Parser& parser, Offset at, std::string_view tag, std::string_view rest) {
+  parser.graph.left_out.push_back(at);
+  const auto id = text::parse<Id>(text::next_word(rest));
+  if (id && tag.find("VERTEX") != tag.npos) parser.left_out.push_back(*id);
+}
+
 void parse_line(Parser& parser, Offset at, std::string_view line) {
   auto rest = line;
   const auto tag = text::next_word(rest);
@@ -161,14 +171,20 @@ void parse_line(Parser& parser, Offset at, std::string_view line) {
     parser.last_meaning = parser.graph.tags.find(tag);
     parser.last_tag = tag;
   }
+  if (!parser.last_meaning && parser.leave_out.unknown_tags)
+    return leave_out(parser, at, tag, rest);
   if (!parser.last_meaning)
     throw text::BadLine{"unknown tag " + text::quoted(tag) +
-                        " (--vertex, --edge and --params teach a new one)"};
+                        " (teach it by --vertex, --edge or --params, or --alias it to a known one; "
+                        "--skip-unknown leaves such lines out)"};
   const graph::TypeIndex type = parser.last_meaning->type;
   switch (parser.last_meaning->kind) {
     case graph::LineKind::vertex:
       return parse_vertex(parser, type, at, rest);
     case graph::LineKind::edge:
+      if (parser.leave_out.unknown_tags && parser.leave_out.unknown_edge &&
+          parser.leave_out.unknown_edge(graph::EdgeTag{type}))
+        return leave_out(parser, at, tag, rest);
       return parse_edge(parser, type, at, rest);
     case graph::LineKind::fix:
       return parse_fix(parser, at, rest);
@@ -234,6 +250,32 @@ void sort_vertices(Parser& parser) {
     parser.complain(graph.vertex_line[v],
                     "vertex " + std::to_string(graph.id[v]) + " is defined a second time");
   }
+  permute(graph.id, kept);
+  permute(graph.vertex_type, kept);
+  permute(graph.vertex_line, kept);
+}
+
+// Where lines were left out: leaves out what hung on them alone, vertices that are no poses and that no
+// edge joins any more.
+void leave_out_bare_vertices(Parser& parser) {
+  Graph& graph = parser.graph;
+  std::ranges::sort(parser.left_out);
+  if (graph.left_out.empty()) return;
+  std::vector<Id> joined;
+  for (std::size_t k = 0; k < parser.edge_ids.small.size(); ++k)
+    joined.push_back(parser.edge_ids[k]);
+  std::ranges::sort(joined);
+  std::vector<Index> kept;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const bool pose = graph.role(v) == graph::Role::pose;
+    if (pose || std::ranges::binary_search(joined, graph.id[v])) {
+      kept.push_back(v);
+    } else {
+      graph.left_out.push_back(graph.vertex_line[v]);
+      parser.left_out.push_back(graph.id[v]);
+    }
+  }
+  std::ranges::sort(parser.left_out);
   permute(graph.id, kept);
   permute(graph.vertex_type, kept);
   permute(graph.vertex_line, kept);
@@ -316,17 +358,23 @@ void resolve_edges(Parser& parser, const VertexLookup& lookup) {
   for (Index e = 0; e < graph.edges(); ++e) {
     const Index end = graph.edge_begin[e + 1];
     bool whole = true;
+    bool left_out = false;
     for (Index k = begin; k < end; ++k) {
       const Id id = parser.edge_ids[k];
       const Index v = lookup[id];
       if (v < 0) {
         whole = false;
+        if (std::ranges::binary_search(parser.left_out, id)) {
+          left_out = true;
+          continue;
+        }
         parser.complain(graph.edge_line[e], graph.type_of_edge(e).tag + " joins vertex " +
                                                 std::to_string(id) +
                                                 ", which the file does not define");
       }
       vertices[kept_ids + (k - begin)] = v;
     }
+    if (left_out) graph.left_out.push_back(graph.edge_line[e]);
     if (whole) {
       kept_ids += end - begin;
       graph.edge_type[kept_edges] = graph.edge_type[e];
@@ -348,7 +396,7 @@ void resolve_fixes(Parser& parser, const VertexLookup& lookup) {
   for (const Fix& fix : parser.fixes) {
     if (const Index v = lookup[fix.id]; v >= 0) {
       graph.fixed[v] = true;
-    } else {
+    } else if (!std::ranges::binary_search(parser.left_out, fix.id)) {
       parser.complain(fix.line, "FIX names vertex " + std::to_string(fix.id) +
                                     ", which the file does not define");
     }
@@ -357,8 +405,9 @@ void resolve_fixes(Parser& parser, const VertexLookup& lookup) {
 
 }  // namespace
 
-Graph parse_g2o(text::Text text, std::string file, graph::Tags tags, const Complaint& complaint) {
-  Parser parser(complaint);
+Graph parse_g2o(text::Text text, std::string file, graph::Tags tags, const Complaint& complaint,
+                const LeaveOut& leave_out) {
+  Parser parser(complaint, leave_out);
   parser.graph.text = std::move(text);
   parser.graph.file = std::move(file);
   parser.graph.tags = std::move(tags);
@@ -369,10 +418,12 @@ Graph parse_g2o(text::Text text, std::string file, graph::Tags tags, const Compl
     imply_vertices(parser);
   } else {
     sort_vertices(parser);
+    leave_out_bare_vertices(parser);
   }
   const VertexLookup lookup(parser.graph.id);
   resolve_edges(parser, lookup);
   resolve_fixes(parser, lookup);
+  std::ranges::sort(parser.graph.left_out);
   return std::move(parser.graph);
 }
 

@@ -1,5 +1,7 @@
 #include "formats/isam.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "formats/euler.h"
@@ -13,8 +15,18 @@ bool observes(std::string_view tag) {
   return tag == "LANDMARK" || tag == "POINT3";
 }
 
+bool planar(std::string_view tag) {
+  return tag == "ODOMETRY" || tag == "EDGE2" || tag == "Constraint2";
+}
+
 bool joins_poses(std::string_view tag) {
-  return tag == "ODOMETRY" || tag == "EDGE2" || tag == "EDGE3";
+  return planar(tag) || tag == "EDGE3";
+}
+
+bool measures_nothing(std::string_view tag) {
+  constexpr std::array<std::string_view, 5> tags{"SOLVE", "POSE3D_INIT", "EDGE3_INIT",
+                                                 "POSE3D_TRUE", "EDGE3_TRUE"};
+  return std::ranges::find(tags, tag) != tags.end();
 }
 
 // The largest pose id, -1 without poses. Defects are left for the translation to find.
@@ -40,6 +52,13 @@ Eigen::Matrix<double, N, N> read_information(std::string_view& rest) {
   return root.transpose() * root;
 }
 
+// The same where the identity may be left unsaid.
+template <int N>
+Eigen::Matrix<double, N, N> read_optional_information(std::string_view rest) {
+  if (text::at_end(rest)) return Eigen::Matrix<double, N, N>::Identity();
+  return read_information<N>(rest);
+}
+
 void translate_odometry(std::string_view rest, std::string& out) {
   out += graph::name(graph::EdgeTag::se2);
   for (int k = 0; k < 2; ++k) text::append_number(out, text::read_id(rest, "a pose id"));
@@ -51,7 +70,7 @@ void translate_edge3(std::string_view rest, std::string& out) {
   out += graph::name(graph::EdgeTag::se3);
   for (int k = 0; k < 2; ++k) text::append_number(out, text::read_id(rest, "a pose id"));
   translate_euler_pose(rest, out);
-  append_triangle<6>(out, to_quaternion_information(read_information<6>(rest)));
+  append_triangle<6>(out, to_quaternion_information(read_optional_information<6>(rest)));
 }
 
 // `after` is the largest pose id.
@@ -59,7 +78,7 @@ void append_landmark_id(std::string& out, std::string_view& rest, Id after) {
   const Id number = text::read_id(rest, "a landmark id");
   if (number > std::numeric_limits<Id>::max() - 1 - after)
     throw text::BadLine{"landmark " + std::to_string(number) +
-                        ", numbered after the poses, is beyond 64 bits"};
+                        ", numbered after the poses, is above 2^63 - 1"};
   text::append_number(out, after + 1 + number);
 }
 
@@ -77,7 +96,7 @@ void translate_point3(std::string_view rest, Id after, std::string& out) {
   append_landmark_id(out, rest, after);
   out += " 0";  // the sensor's offset: the identity that is appended at the end
   text::copy_numbers(rest, 3, out);
-  append_triangle<3>(out, read_information<3>(rest));
+  append_triangle<3>(out, read_optional_information<3>(rest));
 }
 
 // Of these parameters alone iSAM's POINT3 can say nothing and means the same.
@@ -110,6 +129,15 @@ std::vector<bool> mentioned(const Graph& graph) {
   return result;
 }
 
+template <int N>
+void append_root(std::string& out, const Eigen::Matrix<double, N, N>& information) {
+  const auto root = geometry::triangular_square_root(information);
+  if (!root)
+    throw text::BadLine{
+        "the information matrix is not positive semidefinite: it has no square root"};
+  append_triangle<N>(out, *root);
+}
+
 void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out) {
   auto rest = graph::line_at(graph, graph.edge_line[e]);
   text::next_word(rest);
@@ -124,38 +152,50 @@ void write_edge(const Graph& graph, Index e, Id first_landmark, std::string& out
   text::append_number(out, text::read_id(rest, "a vertex id") - (landmark ? first_landmark : 0));
   if (type == graph::EdgeTag::se3) {
     translate_quaternion_pose(rest, out);
-    return append_triangle<6>(
-        out, geometry::triangular_square_root(to_euler_information(read_symmetric<6>(rest))));
+    return append_root<6>(out, to_euler_information(read_symmetric<6>(rest)));
   }
   if (point) text::read_id(rest, "a parameter id");
   const int numbers = type == graph::EdgeTag::se2_xy ? 2 : 3;
   text::copy_numbers(rest, numbers, out);
-  if (numbers == 2)
-    return append_triangle<2>(out, geometry::triangular_square_root(read_symmetric<2>(rest)));
-  append_triangle<3>(out, geometry::triangular_square_root(read_symmetric<3>(rest)));
+  if (numbers == 2) return append_root<2>(out, read_symmetric<2>(rest));
+  append_root<3>(out, read_symmetric<3>(rest));
+}
+
+// The largest id of a pose that is written, -1 without one.
+Id last_pose(const Graph& graph, const std::vector<bool>& used) {
+  Id last = -1;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (used[v] && graph.role(v) == graph::Role::pose) last = graph.id[v];
+  }
+  return last;
+}
+
+bool below_a_pose(const Graph& graph, const std::vector<bool>& used, Index v, Id last) {
+  return used[v] && graph.role(v) == graph::Role::landmark && graph.id[v] < last;
 }
 
 // What to take off a landmark's id so that reading gives it back; 0 where that cannot be.
 Id first_landmark(const Graph& graph) {
   const std::vector<bool> used = mentioned(graph);
-  Id last_pose = -1;
-  Id landmark = std::numeric_limits<Id>::max();
+  const Id last = last_pose(graph, used);
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (!used[v]) continue;
-    if (graph.role(v) == graph::Role::pose) last_pose = graph.id[v];
-    if (graph.role(v) == graph::Role::landmark) landmark = std::min(landmark, graph.id[v]);
+    if (below_a_pose(graph, used, v, last)) return 0;
   }
-  return landmark > last_pose ? last_pose + 1 : 0;
+  return last + 1;
 }
 
 }  // namespace
+
+bool isam_begins(std::string_view word) {
+  return joins_poses(word) || observes(word) || measures_nothing(word);
+}
 
 bool looks_like_isam(std::string_view text) {
   bool isam = false;
   bool undecided = false;
   scan_tags(text, [&](std::string_view tag) {
-    isam = tag == "ODOMETRY" || observes(tag);
-    undecided = tag == "EDGE2" || tag == "EDGE3";
+    undecided = shared_by_toro_and_isam(tag);
+    isam = !undecided && isam_begins(tag);
     return !undecided;
   });
   return isam || undecided;  // EDGE2 and EDGE3 alone
@@ -168,9 +208,10 @@ std::string isam_to_g2o(std::string_view text, const std::string& file,
   const auto translate = [&](std::string_view line, std::string& out) {
     auto rest = line;
     const auto tag = text::next_word(rest);
-    if (tag == "ODOMETRY" || tag == "EDGE2") return translate_odometry(rest, out);
+    if (planar(tag)) return translate_odometry(rest, out);
     if (tag == "EDGE3") return translate_edge3(rest, out);
     if (tag == "LANDMARK") return translate_landmark(rest, after, out);
+    if (measures_nothing(tag)) return void(out.append("# ").append(line));
     if (tag != "POINT3") return void(out += line);
     offset_needed = true;
     translate_point3(rest, after, out);
@@ -185,8 +226,11 @@ Losses isam_losses(const Graph& graph) {
   Losses losses;
   add_edge_losses(losses, graph, holds_edge);
   const std::vector<bool> used = mentioned(graph);
+  const Id last = last_pose(graph, used);
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (!used[v]) add_loss(losses, graph.vertex_line[v], "a vertex without an edge", true);
+    if (below_a_pose(graph, used, v, last))
+      add_loss(losses, graph.vertex_line[v], "the id of a landmark below a pose's", true);
     if (graph.vertex_line[v] != graph::implied)
       add_loss(losses, graph.vertex_line[v], "estimates", false);
   }
@@ -199,6 +243,7 @@ void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
   std::string out;
   for (Index e = 0; e < graph.edges(); ++e) {
     if (!holds_edge(graph, e)) continue;
+    graph::check_ends(graph, e);
     try {
       write_edge(graph, e, first, out);
     } catch (const text::BadLine& bad) {

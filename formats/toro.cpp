@@ -1,6 +1,8 @@
 #include "formats/toro.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "formats/euler.h"
 #include "formats/translate.h"
@@ -40,10 +42,28 @@ void translate_edge3(std::string_view rest, std::string& out) {
   out += graph::name(graph::EdgeTag::se3);
   append_ids(out, rest, 2);
   translate_euler_pose(rest, out);
-  const Matrix6d information = read_symmetric<6>(rest);
+  const bool given = !text::at_end(rest);
+  const Matrix6d information = given ? read_symmetric<6>(rest) : Matrix6d::Identity();
   text::expect_end(rest);
   append_triangle<6>(out, to_quaternion_information(information));
 }
+
+void translate_equivalence(std::string_view rest, std::string& out) {
+  out += "# EQUIV";
+  append_ids(out, rest, 2);
+  text::expect_end(rest);
+}
+
+struct Tag {
+  std::string_view name;
+  void (*translate)(std::string_view rest, std::string& out);
+};
+constexpr std::array tags{
+    Tag{"VERTEX2", translate_vertex2},   Tag{"EDGE2", translate_edge2},
+    Tag{"VERTEX3", translate_vertex3},   Tag{"EDGE3", translate_edge3},
+    Tag{"VERTEX", translate_vertex2},    Tag{"EDGE", translate_edge2},
+    Tag{"EQUIV", translate_equivalence},
+};
 
 bool holds_vertex(const Graph& graph, Index v) {
   const graph::VertexTag type = graph.vertex_tag(v);
@@ -101,25 +121,43 @@ void write_edge(graph::EdgeTag type, std::string_view line, std::string_view res
 
 }  // namespace
 
+bool toro_begins(std::string_view word) {
+  return std::ranges::find(tags, word, &Tag::name) != tags.end();
+}
+
 bool looks_like_toro(std::string_view text) {
   bool toro = false;
   scan_tags(text, [&](std::string_view tag) {
-    toro = tag == "VERTEX2" || tag == "VERTEX3";
-    return tag != "EDGE2" && tag != "EDGE3";
+    toro = toro_begins(tag) && !shared_by_toro_and_isam(tag);
+    return !shared_by_toro_and_isam(tag);
   });
   return toro;
+}
+
+bool rather_toro(std::string_view text) {
+  bool isam = true;
+  while (!text.empty()) {
+    auto line = text::next_line(text);
+    if (text::next_word(line) != "EDGE2") continue;
+    std::array<double, 11> n{};  // ids, measurement, w
+    for (double& number : n) number = text::parse<double>(text::next_word(line)).value_or(0);
+    const std::span<const double, 6> w(n.data() + 5, 6);
+    if (!(w[0] > 0 && w[2] > 0 && w[3] > 0)) return false;
+    if (w[5] == 0) isam = false;  // the last of iSAM's diagonal
+  }
+  return !isam;
 }
 
 std::string toro_to_g2o(std::string_view text, const std::string& file,
                         const Complaint& complaint) {
   return translate_lines(text, file, complaint, [](std::string_view line, std::string& out) {
     auto rest = line;
-    const auto tag = text::next_word(rest);
-    if (tag == "VERTEX2") return translate_vertex2(rest, out);
-    if (tag == "EDGE2") return translate_edge2(rest, out);
-    if (tag == "VERTEX3") return translate_vertex3(rest, out);
-    if (tag == "EDGE3") return translate_edge3(rest, out);
-    out += line;
+    const auto tag = std::ranges::find(tags, text::next_word(rest), &Tag::name);
+    if (tag == tags.end()) {
+      out += line;
+    } else {
+      tag->translate(rest, out);
+    }
   });
 }
 
@@ -132,6 +170,9 @@ Losses toro_losses(const Graph& graph) {
 }
 
 void write_toro(const Graph& graph, const WriteOptions&, Sink& sink) {
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (holds_edge(graph, e)) graph::check_ends(graph, e);
+  }
   const auto translate = [&graph](std::string_view line, std::string& out) {
     auto rest = line;
     const graph::TagMeaning* meaning = graph.tags.find(text::next_word(rest));

@@ -40,6 +40,18 @@ void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink)
   }
 }
 
+bool looks_like_table(std::string_view text, int words) {
+  while (!text.empty()) {
+    auto line = text::next_line(text);
+    auto word = text::next_word(line);
+    if (word.empty() || word.starts_with('#')) continue;
+    if (!text::parse<double>(word)) return false;
+    for (; !word.empty(); word = text::next_word(line)) --words;
+    return words == 0;
+  }
+  return false;
+}
+
 void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look) {
   while (!text.empty()) {
     auto line = text::next_line(text);

@@ -23,6 +23,14 @@ std::string translate_lines(std::string_view text, const std::string& file,
 // nothing is left out; comments stay. What it throws as BadLine becomes an input Error.
 void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink);
 
+// EDGE2 and EDGE3, tags that TORO and iSAM share, with numbers of different meaning.
+constexpr bool shared_by_toro_and_isam(std::string_view tag) {
+  return tag == "EDGE2" || tag == "EDGE3";
+}
+
+// Whether the first line that is neither blank nor a comment has so many words, the first a number.
+bool looks_like_table(std::string_view text, int words);
+
 // Calls `look` with the tag of every line that has one and is neither comment nor FIX, until it
 // returns true. How a format is told by content.
 void scan_tags(std::string_view text, const std::function<bool(std::string_view tag)>& look);

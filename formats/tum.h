@@ -1,11 +1,11 @@
 // The trajectory format of the TUM RGB-D benchmark (Sturm et al. 2012): a line a pose,
 //   timestamp x y z qx qy qz qw
-// by ascending id, which stands for the time. A planar pose lies in z = 0 and turns about z.
+// by ascending id, which stands for the time: reading wants it to be a whole number. A planar pose
+// lies in z = 0 and turns about z. Read, it is a graph of poses without an edge.
 #pragma once
 
-#include <array>
-
 #include "formats/convert.h"
+#include "formats/formats.h"
 
 namespace sg::formats {
 
@@ -13,14 +13,8 @@ namespace sg::formats {
 Losses tum_losses(const Graph& graph);
 void write_tum(const Graph& graph, const WriteOptions& options, Sink& sink);
 
-// Reading it as a trajectory: it has no edges, hence is no graph.
-struct TumPose {
-  Id id;                          // the time, which has to be a whole number
-  std::array<double, 7> numbers;  // x y z qx qy qz qw
-};
-// Whether the first line that is neither blank nor a comment starts with a number.
+// Whether the first line that is neither blank nor a comment has eight words, the first a number.
 bool looks_like_tum(std::string_view text);
-// By ascending id. Throws an input Error for a line of another form, or an id that comes twice.
-std::vector<TumPose> read_tum(std::string_view text, const std::string& file);
+std::string tum_to_g2o(std::string_view text, const std::string& file, const Complaint& complaint);
 
 }  // namespace sg::formats

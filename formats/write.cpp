@@ -24,7 +24,7 @@ void edit_fix_lines(const Graph& graph, const std::vector<bool>& drop_vertex,
     bool dropped = false;
     for (auto word = text::next_word(rest); !word.empty(); word = text::next_word(rest)) {
       const auto v = graph::find_vertex(graph, text::parse<Id>(word).value_or(-1));
-      if (v && drop_vertex[*v]) {
+      if (!v || drop_vertex[*v]) {
         dropped = true;
       } else {
         kept += " " + std::string(word);
@@ -159,6 +159,8 @@ void write_changed(const Graph& graph, Changes changes, std::string_view comment
     edits.insert(edits.begin(), {at, at, (newline ? "\n" : "") + std::string(comment)});
   }
   edit_fix_lines(graph, changes.drop_vertex, edits);
+  for (const Offset line : graph.left_out)
+    edits.push_back({line, line_extent(graph, line).second, ""});
   std::stable_sort(edits.begin(), edits.end(),
                    [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
   Offset at = 0;

@@ -35,6 +35,13 @@ void add_read_options(Command& command, formats::ReadOptions& options) {
   command.app.add_option("--params", options.param_tags, "Teach a tag of parameters")
       ->option_text("TAG")
       ->allow_extra_args(false);
+  command.app
+      .add_option("--alias", options.aliases, "Read lines of one tag as those of a known one")
+      ->option_text("TAG=TAG")
+      ->allow_extra_args(false);
+  command.app.add_flag("--skip-unknown", options.skip_unknown,
+                       "Leave out lines that nobody here knows");
+  options.warning = [&command](const std::string& text) { warn(command, text); };
 }
 
 int report(const Command& command, const text::Error& error) {

@@ -48,7 +48,7 @@ int run(Command&& command, int argc, char** argv, void (*add)(Command&, Options&
 // "sg-ec: text" on standard error, unless -q.
 void warn(const Command& command, const std::string& text);
 
-// FILE, --from, --vertex, --edge, --params.
+// FILE, --from, --vertex, --edge, --params, --alias, --skip-unknown.
 struct Input {
   std::string path = "-";
   formats::ReadOptions options;

@@ -98,5 +98,8 @@ struct Model {
 
 std::span<const Model> models();
 const Model* find_model(graph::EdgeTag type);  // null where there is none
+inline bool has_no_model(graph::EdgeTag type) {
+  return !find_model(type);
+}
 
 }  // namespace sg::factor

@@ -4,14 +4,6 @@
 #include "lib/geometry/triangle.h"
 
 namespace sg::factor {
-namespace {
-
-// Eigenvalues this far below zero, relative to the largest, are rounding of the numbers in the
-// file.
-constexpr double rounding = 1e-6;
-
-}  // namespace
-
 bool whitening(std::span<const double> triangle, int dim, double* U) {
   const auto W = geometry::symmetric<geometry::SmallMatrix>(triangle, dim);
   Eigen::Map<geometry::SmallMatrix> root(U, dim, dim);
@@ -21,7 +13,7 @@ bool whitening(std::span<const double> triangle, int dim, double* U) {
   }
   const geometry::SquareRoot found = geometry::square_root(W);
   root = found.U;
-  return !(found.least < -rounding);
+  return !(found.least < -geometry::semidefinite_rounding);
 }
 
 }  // namespace sg::factor

@@ -43,10 +43,12 @@ SquareRoot square_root(const SmallMatrix& W) {
           values[0] / std::abs(values[values.size() - 1])};
 }
 
-SmallMatrix triangular_square_root(const SmallMatrix& W) {
+std::optional<SmallMatrix> triangular_square_root(const SmallMatrix& W) {
   const SquareRoot root = square_root(W);
   if (root.regular) return root.U;
-  return Eigen::HouseholderQR<SmallMatrix>(root.U).matrixQR().triangularView<Eigen::Upper>();
+  if (root.least < -semidefinite_rounding) return std::nullopt;
+  const Eigen::HouseholderQR<SmallMatrix> qr(root.U);
+  return SmallMatrix(qr.matrixQR().triangularView<Eigen::Upper>());
 }
 
 }  // namespace sg::geometry

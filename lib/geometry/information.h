@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace sg::geometry {
 
@@ -28,7 +29,10 @@ struct SquareRoot {
 };
 SquareRoot square_root(const SmallMatrix& W);
 
-// The upper triangle R with R' R = W.
-SmallMatrix triangular_square_root(const SmallMatrix& W);
+// Eigenvalues this far below zero, relative to the largest, are rounding of the numbers in a file.
+constexpr double semidefinite_rounding = 1e-6;
+
+// The upper triangle R with R' R = W; nothing where W is not positive semidefinite.
+std::optional<SmallMatrix> triangular_square_root(const SmallMatrix& W);
 
 }  // namespace sg::geometry

@@ -28,7 +28,7 @@ void check_quaternion(Offset line, const Numbers& numbers, Findings& findings) {
   const double length =
       std::hypot(std::hypot(numbers[3], numbers[4]), std::hypot(numbers[5], numbers[6]));
   if (length == 0) {
-    findings.push_back({line, true, "the quaternion is zero"});
+    findings.push_back({line, true, "a quaternion has length zero"});
   } else if (std::abs(length - 1) > 1e-3) {
     findings.push_back({line, false, "the quaternion's length is " + std::to_string(length)});
   }

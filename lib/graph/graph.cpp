@@ -91,6 +91,30 @@ std::vector<Id> edge_params(const Graph& graph, Index e) {
   return ids;
 }
 
+std::optional<int> misplaced_end(const Graph& graph, Index e) {
+  const EdgeType& type = graph.type_of_edge(e);
+  const auto vertices = graph.edge(e);
+  for (int k = 0; k < static_cast<int>(vertices.size()) && type.ends.size > 0; ++k) {
+    const VertexRow& wanted = row(type.ends[std::min(k, type.ends.size - 1)]);
+    const VertexType& found = graph.type_of_vertex(vertices[k]);
+    // What was taught has no space: its role has to do.
+    if (found.space == Space::none ? found.role != wanted.role : found.space != wanted.space)
+      return k;
+  }
+  return std::nullopt;
+}
+
+void check_ends(const Graph& graph, Index e) {
+  const auto k = misplaced_end(graph, e);
+  if (!k) return;
+  const EdgeType& type = graph.type_of_edge(e);
+  const Index v = graph.edge(e)[*k];
+  throw error_at(graph, graph.edge_line[e],
+                 type.tag + " joins vertex " + std::to_string(graph.id[v]) + ", a " +
+                     graph.type_of_vertex(v).tag + ", where it wants a " +
+                     std::string(name(type.ends[std::min(*k, type.ends.size - 1)])));
+}
+
 std::vector<Index> file_order(const Graph& graph) {
   std::vector<Index> order;
   order.reserve(graph.vertices());

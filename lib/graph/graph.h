@@ -57,8 +57,9 @@ struct Graph {
   std::vector<Param> params;        // in file order
   std::vector<Offset> fix_lines;    // in file order
   std::vector<Offset> order_lines;  // `# sg-order: METHOD` comments, in file order
-  std::string order_method;         // of the last of them, empty without one
-  bool edges_only = false;          // no VERTEX line in the file
+  std::vector<Offset> left_out;  // lines that were not read because the caller said so, ascending
+  std::string order_method;      // of the last of them, empty without one
+  bool edges_only = false;       // no VERTEX line in the file
 
   Index vertices() const { return static_cast<Index>(id.size()); }
   Index edges() const { return static_cast<Index>(edge_type.size()); }
@@ -96,6 +97,11 @@ void edge_numbers(const Graph& graph, Index e, std::vector<double>& numbers);
 void param_numbers(const Graph& graph, const Param& param, std::vector<double>& numbers);
 // The parameter ids of an edge line, one for each of EdgeType::params.
 std::vector<Id> edge_params(const Graph& graph, Index e);
+
+// The first end of an edge whose vertex is of another kind than the edge's type wants, a landmark where
+// a pose belongs; nothing where that is not known. check_ends throws an input Error that names it.
+std::optional<int> misplaced_end(const Graph& graph, Index e);
+void check_ends(const Graph& graph, Index e);
 
 // Vertices in the order in which the file names them: by VERTEX line, or by first mention in an
 // edges-only file.

@@ -154,4 +154,22 @@ void teach_params(Tags& tags, std::string_view tag) {
   tags.meaning[std::string(tag)] = {LineKind::param, static_cast<TypeIndex>(ParamTag::unknown)};
 }
 
+void teach_alias(Tags& tags, std::string_view spec) {
+  const auto at = spec.find('=');
+  const auto tag = spec.substr(0, at);
+  const auto means = at == spec.npos ? "" : spec.substr(at + 1);
+  const std::string call = "--alias " + std::string(spec);
+  if (tag.empty() || means.empty())
+    throw text::usage_error("--alias wants TAG=TAG, a new one and one that is known, not '" +
+                            std::string(spec) + "'");
+  const TagMeaning* meaning = tags.find(means);
+  if (!meaning) throw text::usage_error(call + ": nobody knows " + std::string(means));
+  const auto same = [&](const TagMeaning& other) {
+    return other.kind == meaning->kind && other.type == meaning->type;
+  };
+  if (known(tags, tag, call, same)) return;
+  const TagMeaning copy = *meaning;
+  tags.meaning[std::string(tag)] = copy;
+}
+
 }  // namespace sg::graph

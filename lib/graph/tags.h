@@ -62,5 +62,7 @@ Tags builtin_tags();
 void teach_vertex(Tags& tags, std::string_view spec);
 void teach_edge(Tags& tags, std::string_view spec);
 void teach_params(Tags& tags, std::string_view tag);
+// `--alias TAG=TAG`: lines of the first tag mean what lines of the second mean.
+void teach_alias(Tags& tags, std::string_view spec);
 
 }  // namespace sg::graph

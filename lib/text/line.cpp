@@ -1,5 +1,7 @@
 #include "lib/text/line.h"
 
+#include <cmath>
+
 namespace sg::text {
 
 std::string quoted(std::string_view word) {
@@ -16,7 +18,7 @@ std::int64_t read_id(std::string_view& rest, std::string_view what) {
   if (word.empty()) throw BadLine{"the line ends before " + std::string(what)};
   if (const auto id = parse<std::int64_t>(word); id && *id >= 0) return *id;
   const bool digits = word.find_first_not_of("0123456789") == word.npos;
-  throw BadLine{quoted(word) + (digits ? " is beyond 64 bits, too large for " : " is not ") +
+  throw BadLine{quoted(word) + (digits ? " is above 2^63 - 1, too large for " : " is not ") +
                 std::string(what)};
 }
 
@@ -25,6 +27,7 @@ double read_number(std::string_view& rest) {
   if (word.empty()) throw BadLine{"the line ends before its last number"};
   const auto value = parse<double>(word);
   if (!value) throw BadLine{quoted(word) + " is not a number"};
+  if (!std::isfinite(*value)) throw BadLine{"a number is not finite"};
   return *value;
 }
 
@@ -36,6 +39,10 @@ std::string_view read_number_text(std::string_view& rest) {
 
 void copy_numbers(std::string_view& rest, int count, std::string& out) {
   for (int k = 0; k < count; ++k) append_word(out, read_number_text(rest));
+}
+
+bool at_end(std::string_view rest) {
+  return next_word(rest).empty();
 }
 
 void expect_end(std::string_view rest) {

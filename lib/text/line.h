@@ -20,17 +20,18 @@ struct BadLine {
 std::string quoted(std::string_view word);
 
 // `what` names the id in the BadLine of one that is missing, no whole number of 0 or more, or
-// beyond 64 bits.
+// above 2^63 - 1.
 std::int64_t read_id(std::string_view& rest, std::string_view what);
 
-// BadLine if the number is missing or none.
+// BadLine if the number is missing, none, or not finite.
 double read_number(std::string_view& rest);
 // `count` numbers, appended as they are written: those that a translation does not change.
 void copy_numbers(std::string_view& rest, int count, std::string& out);
 // One of them.
 std::string_view read_number_text(std::string_view& rest);
 
-// BadLine unless nothing but blanks is left.
+// Whether nothing but blanks is left; BadLine unless it is so.
+bool at_end(std::string_view rest);
 void expect_end(std::string_view rest);
 
 }  // namespace sg::text

@@ -11,7 +11,9 @@
 #include <boost/iostreams/device/array.hpp>
 #include <boost/iostreams/device/back_inserter.hpp>
 #include <boost/iostreams/device/mapped_file.hpp>
+#include <boost/iostreams/filter/bzip2.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filter/lzma.hpp>
 #include <boost/iostreams/filter/zstd.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <cerrno>
@@ -79,6 +81,10 @@ void check_zstd_frames(std::string_view bytes) {
 Text unpacked(Text text, const std::string& path) {
   try {
     if (text.view.starts_with("\x1f\x8b")) return text_of(unpack<io::gzip_decompressor>(text.view));
+    if (text.view.starts_with("BZh")) return text_of(unpack<io::bzip2_decompressor>(text.view));
+    if (text.view.starts_with("\xfd"
+                              "7zXZ"))
+      return text_of(unpack<io::lzma_decompressor>(text.view));
     if (text.view.starts_with("\x28\xb5\x2f\xfd")) {
       check_zstd_frames(text.view);
       return text_of(unpack<io::zstd_decompressor>(text.view));

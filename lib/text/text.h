@@ -19,7 +19,7 @@ inline Text text_of(std::string bytes) {
   return {std::move(owner), view};
 }
 
-// The bytes of a file ("-": standard input), unpacked if they are gzip or zstd. A regular file is
+// The bytes of a file ("-": standard input), unpacked if they are gzip, zstd, bzip2 or xz. A regular file is
 // mapped, not copied. Throws an input Error for what cannot be opened or read.
 Text read_text(const std::string& path);
 

@@ -10,12 +10,12 @@ namespace {
 
 // Every second vertex and third edge go: what is left can still be read.
 void drop_some(const Graph& graph) {
-  Changes changes = unchanged(graph);
+  formats::Changes changes = formats::unchanged(graph);
   for (Index v = 0; v < graph.vertices(); v += 2) changes.drop_vertex[v] = true;
   for (Index e = 0; e < graph.edges(); e += 3) changes.drop_edge[e] = true;
   fuzz::StringSink sink;
-  write_changed(graph, changes, "# fuzz\n", sink);
-  fuzz::graph_of(text_of(std::move(sink.text)), "g2o");
+  formats::write_changed(graph, changes, "# fuzz\n", sink);
+  fuzz::graph_of(text::text_of(std::move(sink.text)), "g2o");
 }
 
 }  // namespace
@@ -26,8 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require_consistent(*graph);
   fuzz::require_same_bytes(*graph);
   drop_some(*graph);
-  check(*graph);
-  summarize(*graph);
-  replay(*graph, pose_index(*graph), 2);
+  graph::check(*graph);
+  graph::summarize(*graph);
+  graph::replay(*graph, graph::pose_index(*graph), 2);
   return 0;
 }

@@ -25,10 +25,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const std::string path = scratch();
   write_file(path, data, size);
   try {
-    const auto graph = fuzz::graph_of(read_text(path), "");
+    const auto graph = fuzz::graph_of(text::read_text(path), "");
     if (graph) fuzz::require_consistent(*graph);
-  } catch (const Error& error) {
-    fuzz::require(error.fault == Fault::input);
+  } catch (const text::Error& error) {
+    fuzz::require(error.fault == text::Fault::input);
   }
   return 0;
 }

@@ -17,25 +17,27 @@ inline void require(bool truth) {
   if (!truth) std::abort();
 }
 
-struct StringSink final : Sink {
+struct StringSink final : formats::Sink {
   std::string text;
   void write(std::string_view bytes) override { text += bytes; }
 };
 
-inline Text copy_of(const std::uint8_t* data, std::size_t size) {
-  return text_of(std::string(reinterpret_cast<const char*>(data), size));
+inline text::Text copy_of(const std::uint8_t* data, std::size_t size) {
+  return text::text_of(std::string(reinterpret_cast<const char*>(data), size));
 }
 
 // The graph of these bytes; reading goes on after a defect. Nothing where reading ends with an
 // Error.
-inline std::optional<Graph> graph_of(Text text, const std::string& format) {
-  ReadOptions options;
+inline std::optional<Graph> graph_of(text::Text text, const std::string& format) {
+  formats::ReadOptions options;
   options.format = format;
-  options.complaint = [](const Error& error) { require(error.fault == Fault::input); };
+  options.complaint = [](const text::Error& error) { require(error.fault == text::Fault::input); };
   try {
-    return read_graph_text(std::move(text), "fuzz", options);
-  } catch (const Error& error) {
-    require(error.fault == Fault::input);
+    return formats::read_graph_text(std::move(text), "fuzz", options);
+  } catch (const text::Error& error) {
+    // Of usage where no line agrees with the format.
+    require(error.fault == text::Fault::input ||
+            (error.fault == text::Fault::usage && !format.empty()));
     return std::nullopt;
   }
 }
@@ -50,15 +52,15 @@ inline void require_consistent(const Graph& graph) {
   for (std::size_t v = 1; v < n; ++v) require(graph.id[v - 1] < graph.id[v]);
   for (const Index v : graph.edge_vertices) require(v >= 0 && v < graph.vertices());
   for (Index v = 0; v < graph.vertices(); ++v) {
-    require(find_vertex(graph, graph.id[v]) == v);
-    require((graph.vertex_line[v] == implied) == graph.edges_only);
+    require(graph::find_vertex(graph, graph.id[v]) == v);
+    require((graph.vertex_line[v] == graph::implied) == graph.edges_only);
   }
 }
 
 // Nothing is changed: the same bytes.
 inline void require_same_bytes(const Graph& graph) {
   StringSink sink;
-  write_changed(graph, unchanged(graph), "", sink);
+  formats::write_changed(graph, formats::unchanged(graph), "", sink);
   require(sink.text == graph.text.view);
 }
 

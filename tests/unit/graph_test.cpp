@@ -180,9 +180,10 @@ TEST_CASE("a wrong line is named with its cause", "[graph]") {
         "test.g2o:2: EDGE_SE2 wants 9 numbers here, the line has 7");
   CHECK(cause(vertex + vertex) == "test.g2o:2: vertex 0 is defined a second time");
   CHECK(cause("VERTEX_SE2 9223372036854775808 0 0 0\n") ==
-        "test.g2o:1: '9223372036854775808' is beyond 64 bits, too large for a vertex id");
+        "test.g2o:1: '9223372036854775808' is above 2^63 - 1, too large for a vertex id");
   CHECK(cause("NONSENSE 1 2\n") ==
-        "test.g2o:1: unknown tag 'NONSENSE' (--vertex, --edge and --params teach a new one)");
+        "test.g2o:1: unknown tag 'NONSENSE' (teach it by --vertex, --edge or --params, or --alias "
+        "it to a known one; --skip-unknown leaves such lines out)");
   CHECK(cause("VERTEX_SE2 9223372036854775807 0 0 0\n").empty());
 }
 

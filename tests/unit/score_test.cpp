@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "formats/formats.h"
-#include "formats/tum.h"
 #include "lib/factor/linearize.h"
 #include "lib/graph/summary.h"
 #include "lib/order/order.h"
@@ -283,13 +282,24 @@ TEST_CASE("trajectories come from graphs and from TUM files", "[score]") {
       score::trajectory(graph_of("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"));
   CHECK(composed.pose[1].t == Eigen::Vector3d(1, 0, 0));
 
-  CHECK(formats::looks_like_tum("# a comment\n\n 12 0 0 0 0 0 0 1\n"));
-  CHECK(!formats::looks_like_tum("VERTEX_SE2 0 0 0 0\n"));
-  const auto poses = formats::read_tum("7.000 1 2 3 0 0 0 1\r\n# x\n2 4 5 6 0 0 0 1", "t.tum");
-  REQUIRE(poses.size() == 2);
-  CHECK(poses[0].id == 2);
-  CHECK(poses[1].numbers == std::array<double, 7>{1, 2, 3, 0, 0, 0, 1});
-  CHECK_THROWS_AS(formats::read_tum("1.5 1 2 3 0 0 0 1\n", "t.tum"), text::Error);
-  CHECK_THROWS_AS(formats::read_tum("1 1 2 3 0 0 0\n", "t.tum"), text::Error);
-  CHECK_THROWS_AS(formats::read_tum("1 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n", "t.tum"), text::Error);
+  const auto read = [](const std::string& text) {
+    return score::trajectory(formats::read_graph_text(text::text_of(text), "t"));
+  };
+  // Exact above 2^53, too.
+  const auto tum =
+      read("7.000 1 2 3 0 0 0 1\r\n# x\n2 4 5 6 0 0 0 1\n9007199254740993 0 0 0 0 0 0 1");
+  CHECK(tum.id == std::vector<Id>{2, 7, 9007199254740993});
+  CHECK(tum.pose[1].t == Eigen::Vector3d(1, 2, 3));
+  for (const auto* wrong :
+       {"1.5 1 2 3 0 0 0 1\n", "-1 1 2 3 0 0 0 1\n", "1 1 2 3 0 0 0 0\n", "1 1 2 nan 0 0 0 1\n",
+        "1 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n", "1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n"})
+    CHECK_THROWS_AS(read(wrong), text::Error);
+  const auto kitti = read("1 0 0 5 0 1 0 6 0 0 1 7\n\n0 -1 0 1 1 0 0 2 0 0 1 3\n");
+  CHECK(kitti.id == std::vector<Id>{0, 1});
+  CHECK(kitti.pose[0].t == Eigen::Vector3d(5, 6, 7));
+  CHECK(geometry::log_so3(kitti.pose[1].q).z() == Approx(M_PI / 2));
+  for (const auto* wrong :
+       {"1 0 0 5 0 1 0 6 0 0 2 7\n", "1 0 0 5 0 1 0 6 0 0 -1 7\n", "1 0 0 5 0 1 0 6 0 0 1 inf\n",
+        "1 0 0 5 0 1 0 6 0 0 1 7\n1 0 0 5 0 1 0 6 0 0 1\n"})
+    CHECK_THROWS_AS(read(wrong), text::Error);
 }

@@ -119,7 +119,7 @@ TEST_CASE("a defect of a line is said in its words", "[words]") {
   const auto id = [](std::string_view& rest) { text::read_id(rest, "a vertex id"); };
   CHECK(defect("9223372036854775807", id).empty());
   CHECK(defect("9223372036854775808", id) ==
-        "'9223372036854775808' is beyond 64 bits, too large for a vertex id");
+        "'9223372036854775808' is above 2^63 - 1, too large for a vertex id");
   CHECK(defect(" \r", id) == "the line ends before a vertex id");
   CHECK(defect("-1", id) == "'-1' is not a vertex id");
   CHECK(defect("1.5", id) == "'1.5' is not a vertex id");

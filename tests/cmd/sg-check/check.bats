@@ -69,7 +69,7 @@ unit='1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1'
 
 @test "quaternions" {
   printf "$pose 1 0 0 0 0 0 0 1.0001\n$pose 2 0 0 0 0 0 0 1.01\n$edge 1 2 0 0 0 0 0 0 0 $unit\n" |
-    finds "<stdin>:2: warning: the quaternion's length is 1.010000" '<stdin>:3: error: the quaternion is zero'
+    finds "<stdin>:2: warning: the quaternion's length is 1.010000" '<stdin>:3: error: a quaternion has length zero'
 }
 
 @test "disconnected parts are a warning, once each" {

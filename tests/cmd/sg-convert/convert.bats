@@ -47,9 +47,9 @@ near() {
   done
   sg-convert --to isam "$SGTOOLS_DATA/sphere400.isam.txt" >sphere.isam
   near "$SGTOOLS_DATA/sphere400.isam.txt" sphere.isam
-  sg-convert --to toro "$SGTOOLS_DATA/manhattan.g2o" | sg-convert --from toro | cmp - "$SGTOOLS_DATA/manhattan.g2o"
+  sg-convert --to toro "$SGTOOLS_DATA/manhattan.g2o" | sg-convert --from toro | grep -v VERTEX | cmp - "$SGTOOLS_DATA/manhattan.g2o"
   sg-convert "$SGTOOLS_DATA/sphere400.isam.txt" >sphere.g2o
-  sg-convert --to toro sphere.g2o | sg-convert --from toro >back.g2o
+  sg-convert --to toro sphere.g2o | sg-convert --from toro | grep -v VERTEX >back.g2o
   near sphere.g2o back.g2o
 }
 
@@ -116,7 +116,7 @@ near() {
 @test "a zero quaternion is no rotation" {
   echo 'EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1' >zero.g2o
   for format in toro isam; do
-    fails 1 "sg-convert: zero.g2o:1: the quaternion is zero" sg-convert --to $format zero.g2o
+    fails 1 "sg-convert: zero.g2o:1: a quaternion has length zero" sg-convert --to $format zero.g2o
   done
 }
 

@@ -1,0 +1,47 @@
+#include "formats/kitti.h"
+
+#include <Eigen/Geometry>
+
+#include "formats/translate.h"
+#include "lib/text/line.h"
+
+namespace sg::formats {
+namespace {
+
+// As written with few digits; a matrix that is farther off is none of a rotation.
+constexpr double rounding = 1e-2;
+
+void translate_pose(std::string_view rest, Id id, std::string& out) {
+  Eigen::Matrix<double, 3, 4> pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) pose(row, column) = text::read_number(rest);
+  }
+  text::expect_end(rest);
+  const Eigen::Matrix3d rotation = pose.leftCols<3>();
+  if (!(rotation * rotation.transpose()).isIdentity(rounding) || rotation.determinant() < 0)
+    throw text::BadLine{"numbers 1-3, 5-7 and 9-11 of a KITTI pose are no rotation matrix"};
+  out += graph::name(graph::VertexTag::se3);
+  text::append_number(out, id);
+  for (const double number : pose.col(3)) text::append_number(out, number);
+  const Eigen::Quaterniond q = Eigen::Quaterniond(rotation).normalized();
+  for (const double number : q.coeffs()) text::append_number(out, number);
+}
+
+}  // namespace
+
+bool looks_like_kitti(std::string_view text) {
+  return looks_like_table(text, 12);
+}
+
+std::string kitti_to_g2o(std::string_view text, const std::string& file,
+                         const Complaint& complaint) {
+  Id id = 0;
+  return translate_lines(text, file, complaint, [&](std::string_view line, std::string& out) {
+    auto rest = line;
+    const auto word = text::next_word(rest);
+    if (word.empty() || word.starts_with('#')) return void(out += line);
+    translate_pose(line, id++, out);
+  });
+}
+
+}  // namespace sg::formats
