@@ -76,7 +76,7 @@ std::vector<prune::Accepted> chosen(const cmd::Prunable& from, std::size_t count
                                     trees::Weights weights, std::optional<Index> online) {
   const prune::GoOn go_on = [](std::size_t kept) {
     cmd::progress(static_cast<std::int64_t>(kept));
-    return !cmd::interrupted();
+    return kept == 0 || !cmd::interrupted();
   };
   cmd::finish_first();
   cmd::stage("prune", static_cast<std::int64_t>(count));
@@ -102,7 +102,6 @@ void run(const cmd::Command& command, const Options& options) {
   const auto& [graph, poses, kind, candidates] = from;
   const auto count = cmd::kept_count(options.amount, from, options.pruning.input.options);
   const auto accepted = chosen(from, count, trees::tree_weights(options.weights).value(), online);
-  if (cmd::interrupted() && accepted.empty()) return;  // there is nothing yet
   prune::Removal removal = prune::nothing_removed(graph);
   for (const Index e : candidates) removal.edge[e] = true;
   for (const prune::Accepted& step : accepted) removal.edge[step.edge] = false;

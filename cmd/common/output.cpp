@@ -117,6 +117,7 @@ void Output::row(std::string_view line) {
   rows_ = true;
   write(line);
   state_.finished = buffer_.size();
+  state_.kept = keep_;
   const auto now = std::chrono::steady_clock::now();
   if (now - passed_on_ < std::chrono::milliseconds(100)) return;
   passed_on_ = now;
@@ -124,7 +125,7 @@ void Output::row(std::string_view line) {
 }
 
 void Output::keep_rows() {
-  state_.kept = true;
+  keep_ = true;
 }
 
 void Output::commit() {

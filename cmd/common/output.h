@@ -45,6 +45,7 @@ class Output final : public formats::Sink {
   std::string buffer_;
   std::int64_t written_ = 0;
   bool rows_ = false;
+  bool keep_ = false;
   bool terminal_ = false;
   std::chrono::steady_clock::time_point passed_on_ = std::chrono::steady_clock::now();
 };

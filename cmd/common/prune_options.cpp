@@ -62,7 +62,6 @@ void add_amount(Command& command, Amount& amount) {
 Prunable read_prunable(const PruneOptions& options) {
   Prunable result;
   result.graph = read(options.input);
-  stage("prune");
   result.poses = graph::pose_index(result.graph);
   result.kind = candidates_named(options.candidates, result.graph);
   result.candidates = prune::candidate_edges(result.graph, result.poses, result.kind);
@@ -105,6 +104,7 @@ void write_pruned(const Command& command, const PruneOptions& options, const Pru
 void prune(const Command& command, const PruneOptions& options,
            const std::function<std::vector<bool>(const Prunable&)>& kept) {
   const Prunable prunable = read_prunable(options);
+  stage("prune");
   write_pruned(command, options, prunable,
                prune::removal_of_rest(prunable.graph, prunable.candidates, kept(prunable)));
 }
