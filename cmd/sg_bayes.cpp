@@ -92,6 +92,7 @@ void print_dot(NamedTree& named, cmd::Output& output) {
 void show(const cmd::Command& /*command*/, const cmd::DrawingOptions& options) {
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);
+  cmd::stage("eliminate");
   NamedTree named = named_tree(options, graph);
   cmd::Output output(options.output.path);
   if (options.dot) {

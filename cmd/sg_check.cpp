@@ -40,7 +40,13 @@ std::vector<Message> messages(const std::string& path, const Options& options) {
   read.complaint = [&](const text::Error& error) {
     found.push_back({file, error.line, Severity::error, error.what()});
   };
-  const Graph graph = formats::read_graph(path, read);
+  cmd::begin_reading(path);
+  text::Text source = text::read_text(path);
+  const std::string_view format = formats::find_format(read, source.view).name;
+  const std::size_t bytes = source.view.size();
+  const Graph graph = formats::read_graph_text(std::move(source), file, read);
+  cmd::note_graph(graph, format, bytes);
+  cmd::stage("check");
   if (graph.vertices() == 0)
     found.push_back({file, 0, Severity::error, "there is no vertex and no edge in it"});
   graph::Findings findings = graph::check(graph);
@@ -60,6 +66,7 @@ std::vector<Message> messages(const std::string& path, const Options& options) {
     found.push_back({file, finding.line == graph::implied ? 0 : number, finding.severity,
                      std::move(finding.cause)});
   }
+  cmd::note(std::to_string(found.size()) + " findings");
   std::ranges::stable_sort(found, {}, &Message::line);
   return found;
 }

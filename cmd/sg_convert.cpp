@@ -62,6 +62,7 @@ void convert(const cmd::Command& command, const Options& options) {
   if (options.write.scalar && options.to != "mtx")
     throw text::usage_error("--scalar belongs to --to mtx");
   Graph graph = cmd::read(options.input);
+  cmd::stage("convert");
   const std::vector<std::string> lost = losses(options, graph);
   if (graph.edges_only && (options.estimates || format.estimates))
     graph = with_estimates(command, graph, options.input.options);

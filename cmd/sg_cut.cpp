@@ -82,9 +82,15 @@ void check_rest(const Graph& graph, const graph::Part& kept) {
 void cut(const cmd::Command& command, const Options& options) {
   check_call(options);
   const Graph graph = cmd::read(options.input);
+  cmd::stage("cut");
   graph::Part kept = part(graph, options);
   check_rest(graph, kept);
   formats::Changes changes = formats::unchanged(graph);
+  const auto counted = [](const std::vector<bool>& of) {
+    return std::to_string(std::count(of.begin(), of.end(), true)) + " of " +
+           std::to_string(of.size());
+  };
+  cmd::note("kept " + counted(kept.vertex) + " vertices, " + counted(kept.edge) + " edges");
   kept.vertex.flip();
   kept.edge.flip();
   changes.drop_vertex = std::move(kept.vertex);

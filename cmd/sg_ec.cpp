@@ -4,7 +4,6 @@
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
-#include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/bayes_tree.h"
 #include "lib/graph/lists.h"
@@ -144,11 +143,11 @@ void replay_rows(const Graph& graph, const std::string& file, const Options& opt
   const graph::Lists<> edges = graph::grouped(replay.edge_step, replay.steps);
   std::vector<bool> vertex_in(graph.vertices(), false);
   std::vector<bool> edge_in(graph.edges(), false);
-  cmd::Progress progress("sg-ec", "step", replay.steps);
-  for (Index k = 0; k < replay.steps; ++k) {
+  cmd::stage("replay", replay.steps);
+  for (Index k = 0; k < replay.steps && !cmd::interrupted(); ++k) {
     for (const Index v : vertices[k]) vertex_in[v] = true;
     for (const Index e : edges[k]) edge_in[e] = true;
-    progress.update(k);
+    cmd::progress(k);
     if (k % options.every != 0 && k + 1 < replay.steps) continue;
     const graph::GraphPattern variables = graph::graph_pattern(graph, vertex_in, edge_in);
     show({options, file, k, vertices.begin[k + 1], edges.begin[k + 1], graph, variables});
@@ -160,11 +159,13 @@ void show_file(const std::string& path, const Options& options, const Show& show
   const std::vector<cmd::Method> methods = cmd::methods(options.methods, graph);
   const Show under_each = [&](Subject subject) {
     for (const cmd::Method& method : methods) {
+      if (cmd::interrupted()) return;
       subject.method = &method;
       show(subject);
     }
   };
   if (options.trace) return replay_rows(graph, path, options, under_each);
+  cmd::stage("score");
   const graph::GraphPattern variables = graph::graph_pattern(graph);
   under_each({options, path, {}, graph.vertices(), graph.edges(), graph, variables});
 }
@@ -191,8 +192,11 @@ void score(const cmd::Command& /*command*/, const Options& options) {
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
                          {"--trace", options.trace}};
   cmd::Output output(options.output.path);
+  output.keep_rows();
   const auto show_files = [&](const Show& show) {
-    for (const auto& path : options.inputs.paths) show_file(path, options, show);
+    for (const auto& path : options.inputs.paths) {
+      if (!cmd::interrupted()) show_file(path, options, show);
+    }
     output.commit();
   };
   if (options.per_vertex) {

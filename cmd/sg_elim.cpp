@@ -119,6 +119,7 @@ void print_dot(const graph::Pattern& pattern, const Names& id_of, const graph::O
 void show(const cmd::Command& /*command*/, const cmd::DrawingOptions& options) {
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);
+  cmd::stage("eliminate");
   const graph::GraphPattern variables = graph::graph_pattern(graph);
   const graph::Pattern& pattern = variables.pattern;
   if (pattern.variables() > most_variables) {

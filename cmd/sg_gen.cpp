@@ -28,6 +28,7 @@ void add_files(CLI::App& app, Files& files) {
 }
 
 void generate(const cmd::Command& command, const Files& files, const gen::Maker& maker) {
+  cmd::stage("generate");
   const gen::Writer writer = maker();
   const std::string comment = cmd::trace_comment(command, files.output);
   cmd::Output noisy(files.output.path);

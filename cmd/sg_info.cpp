@@ -90,6 +90,7 @@ void add_options(cmd::Command& command, Options& options) {
 void show(const cmd::Command& /*command*/, const Options& options) {
   const text::Text text = cmd::read_text(options.input);
   const Graph graph = cmd::read(options.input, text);
+  cmd::stage("count");
   const formats::ReadFormat& format = formats::find_format(options.input.options, text.view);
   // A format whose lines begin with numbers has no tags but those of what it is read as.
   const bool tagless = format.to_g2o && format.begins("0");

@@ -4,7 +4,6 @@
 #include "cmd/common/command.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/options.h"
-#include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
 #include "lib/factor/gauge.h"
@@ -129,11 +128,10 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_table(command, options.table, columns);
 }
 
-void replay(const cmd::Command& command, const Options& options, solve::Isam2Replay& replay,
-            cmd::Table<Row>& table) {
-  cmd::Progress progress(command.name, "step", replay.steps.steps);
+void replay(const Options& options, solve::Isam2Replay& replay, cmd::Table<Row>& table) {
+  cmd::stage("replay", replay.steps.steps);
   for (Index k = 0; k < replay.steps.steps; ++k) {
-    progress.update(k);
+    cmd::progress(k);
     const double start = processor_seconds();
     const solve::Isam2Report report = solve::replay_step(replay, k);
     const double seconds = processor_seconds() - start;
@@ -176,16 +174,12 @@ void run(const cmd::Command& command, const Options& options) {
       {"--colamd", options.colamd}, {"--chi2", options.chi2}, {"--batch", options.batch}};
   cmd::Table table(options.table, columns, given, output);
   const Graph graph = cmd::read(options.input);
+  cmd::stage("start");
   factor::Problem problem = factor::make_problem(graph);
   hold_at_first(command, problem);
   solve::Isam2Replay state =
       solve::make_isam2_replay(problem, options.isam, options.min_obs, options.from_file);
-  try {
-    replay(command, options, state, table);
-  } catch (const text::Error&) {
-    output.commit();  // the steps before are valid
-    throw;
-  }
+  replay(options, state, table);
   if (!options.output.path.empty()) write_graph(command, options, problem, state);
   output.commit();
 }

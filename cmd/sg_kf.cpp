@@ -44,9 +44,9 @@ void report(const cmd::Command& command, const prune::Keyframing& keyframing) {
     cmd::warn(command, "left out " + std::to_string(keyframing.dropped_priors) +
                            " unary edges (priors) of dropped poses");
   }
-  if (command.verbose && keyframing.collapsed_loops > 0) {
-    cmd::warn(command, "left out " + std::to_string(keyframing.collapsed_loops) +
-                           " loop closures whose ends have the same nearest keyframe");
+  if (keyframing.collapsed_loops > 0) {
+    cmd::note("left out " + std::to_string(keyframing.collapsed_loops) +
+              " loop closures whose ends have the same nearest keyframe");
   }
 }
 
@@ -57,6 +57,7 @@ void run(const cmd::Command& command, const Options& options) {
   if ((rule.rate > 0) == travelled)
     throw text::usage_error("how many keyframes? Give -r, or --dist and --angle or one of them");
   const Graph graph = cmd::read(options.pruning.input);
+  cmd::stage("prune");
   const graph::PoseIndex poses = graph::pose_index(graph);
   const graph::Lists<> odometry = prune::odometry_steps(graph, poses);
   const auto keyframes = prune::choose_keyframes(graph, poses, odometry, rule);
@@ -68,7 +69,7 @@ void run(const cmd::Command& command, const Options& options) {
                            " are keyframes (the first of a segment, and fixed ones, always are)");
   report(command, keyframing);
   formats::Changes changes =
-      cmd::pruned(command, graph, poses, options.pruning.min_obs, std::move(keyframing.removal));
+      cmd::pruned(graph, poses, options.pruning.min_obs, std::move(keyframing.removal));
   changes.late_edge = keyframing.late;
   changes.edge_line = [&](Index e) -> std::optional<std::string> {
     if (!keyframing.rewritten[e]) return std::nullopt;

@@ -1,7 +1,5 @@
 // sg-order: put a graph's variables in elimination order.
 #include <cstdio>
-#include <ctime>
-#include <iostream>
 
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
@@ -66,14 +64,8 @@ std::vector<Index> last_variables(const Options& options, const Graph& graph,
 
 void print_improvement(const order::Improvement& better) {
   char text[64];
-  std::snprintf(text, sizeof text, " after %d tries, %.2f s\n", better.tries, better.seconds);
-  std::cerr << "sg-order: " << better.how << ": EC " << elim::to_string(better.ec) << text;
-}
-
-void print_cost(const std::string& method, const graph::Pattern& pattern, const graph::Order& order,
-                double seconds) {
-  const std::string ec = elim::to_string(elim::elimination_complexity(pattern, order));
-  std::cerr << "sg-order: " << method << ": EC " << ec << " in " << seconds << " s of CPU time\n";
+  std::snprintf(text, sizeof text, " after %d tries, %.2f s", better.tries, better.seconds);
+  cmd::say(std::string(better.how) + ": EC " + elim::to_string(better.ec) + text);
 }
 
 graph::Order computed_order(const cmd::Command& command, const Options& options, const Graph& graph,
@@ -83,10 +75,13 @@ graph::Order computed_order(const cmd::Command& command, const Options& options,
   order_options.seed = options.seed;
   order_options.budget = order::parse_budget(options.budget);
   if (command.verbose) order_options.report = print_improvement;
-  const std::clock_t start = std::clock();
+  cmd::stop_when_interrupted(order::find_ordering(options.method), order_options);
+  cmd::stage("order");
   graph::Order order = order::elimination_order(options.method, variables.pattern, order_options);
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  if (command.verbose) print_cost(options.method, variables.pattern, order, seconds);
+  if (command.verbose) {
+    cmd::note(options.method + ": EC " +
+              elim::to_string(elim::elimination_complexity(variables.pattern, order)));
+  }
   return order;
 }
 
@@ -117,7 +112,7 @@ void print_ids(const Options& options, const Graph& graph, const graph::GraphPat
                const graph::Order& order) {
   cmd::Output output(options.output.path);
   for (const Index j : order) {
-    output.write(std::to_string(graph.id[variables.variable_vertex[j]]) + "\n");
+    output.row(std::to_string(graph.id[variables.variable_vertex[j]]) + "\n");
   }
   output.commit();
 }
@@ -137,6 +132,7 @@ void write_graph(const cmd::Command& command, const Options& options, const Grap
   }
   const std::string marker =
       "# sg-order: " + (options.apply.empty() ? options.method : "apply") + "\n";
+  cmd::stage("write");
   cmd::Output output(options.output.path);
   formats::write_changed(graph, std::move(changes),
                          cmd::trace_comment(command, options.output) + marker, output);

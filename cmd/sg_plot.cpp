@@ -69,6 +69,7 @@ void run(const cmd::Command& /*command*/, const Options& options) {
   if (options.cost && options.what != "map") throw text::usage_error("--cost belongs to map");
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);
+  cmd::stage("draw");
   const std::string bytes = plot::picture(format, options.size.width, options.size.height,
                                           [&](cairo_t* page) { draw(page, options, graph); });
   cmd::Output output(options.output.path);

@@ -119,6 +119,7 @@ void predict(const cmd::Command& command, const Options& options) {
   cmd::Table table(options.table, columns,
                    {{"a graph or counts", sized}, {"--ec", options.ec.has_value()}}, output);
   const auto sizes = sized ? sizes_of(command, options) : std::nullopt;
+  cmd::stage("predict");
   for (const double r : options.rates) table.row({r, sizes, options.ec});
   output.commit();
 }

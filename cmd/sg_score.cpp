@@ -97,6 +97,7 @@ void add_options(cmd::Command& command, Options& options) {
 // A graph's or a trajectory's file, of any format: it need not be that of the graphs.
 score::Trajectory read_trajectory(const std::string& path, formats::ReadOptions options) {
   options.format.clear();
+  cmd::begin_reading(path);
   return score::trajectory(formats::read_graph(path, options));
 }
 
@@ -131,12 +132,14 @@ void run(const cmd::Command& command, const Options& options) {
                          {"--reference", !options.reference.empty()}};
   cmd::Output output(options.output.path);
   cmd::Table table(options.table, columns, given, output);
+  output.keep_rows();
   std::optional<score::Trajectory> reference;
   if (!options.reference.empty())
     reference = read_trajectory(options.reference, options.inputs.options);
   const trees::Weights weights = trees::tree_weights(options.weights).value();
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
+    cmd::stage("score");
     if (reference) warn_of_reference(command, options, graph, *reference);
     const cmd::Method method = cmd::methods(options.method, graph).front();
     table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <iostream>
 #include <optional>
 
 #include "cmd/common/command.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
-#include "cmd/common/progress.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
@@ -144,7 +142,10 @@ void print_times(const Options& options, const factor::Problem& problem,
                  const factor::Values& values) {
   cmd::Output output(options.output.path);
   cmd::Table table(options.table, time_columns, {}, output);
+  cmd::stage("order");
   const auto [label, order] = named_order(options, *problem.graph);
+  cmd::finish_first();
+  cmd::stage("eliminate", options.runs);
   const graph::Pattern& pattern = problem.variables.pattern;
   factor::LinearSystem system = factor::make_linear_system(problem);
   factor::linearize(problem, values, parse_kernel(options.kernel), system);
@@ -152,22 +153,26 @@ void print_times(const Options& options, const factor::Problem& problem,
   const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
   const double plan = seconds_since(start);
   std::vector<double> times;
-  for (int k = 0; k < options.runs; ++k) {
+  for (int k = 0; k < options.runs && (k == 0 || !cmd::interrupted()); ++k) {
+    cmd::progress(k);
     const auto begin = std::chrono::steady_clock::now();
     if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
     times.push_back(seconds_since(begin));
   }
   table.row({label, options.backend, options.threads, pattern.variables(), problem.graph->edges(),
-             elim::elimination_complexity(pattern, order), options.runs, plan, median(times)});
+             elim::elimination_complexity(pattern, order), static_cast<int>(times.size()), plan,
+             median(times)});
   output.commit();
 }
 
 void print_iteration(const solve::Iteration& iteration) {
-  std::cerr << iteration.number << '\t' << text::format_number(iteration.chi2) << '\t'
-            << text::format_number(iteration.lambda) << '\t' << text::format_number(iteration.step)
-            << '\t' << (iteration.kept ? "yes" : "no") << '\t'
-            << text::format_number(iteration.linearize_s) << '\t'
-            << text::format_number(iteration.eliminate_s) << '\n';
+  std::string line = std::to_string(iteration.number);
+  for (const double number : {iteration.chi2, iteration.lambda, iteration.step})
+    line += '\t' + text::format_number(number);
+  line += iteration.kept ? "\tyes" : "\tno";
+  for (const double seconds : {iteration.linearize_s, iteration.eliminate_s})
+    line += '\t' + text::format_number(seconds);
+  cmd::print_error(line + "\n");
 }
 
 // Which vertices' lines an optimization rewrites: all but the constants.
@@ -188,11 +193,11 @@ std::string rounded(double number) {
 // How it went, in a line.
 void tell(const cmd::Command& command, const solve::BatchResult& result, double seconds) {
   if (command.quiet || !(command.verbose || ::isatty(STDERR_FILENO) != 0)) return;
-  std::cerr << command.name << ": " << (result.converged ? "converged" : "not converged")
-            << " after " << result.iterations
-            << (result.iterations == 1 ? " iteration, " : " iterations, ") << rounded(seconds)
-            << " s: chi-square from " << rounded(result.initial_chi2) << " to "
-            << rounded(result.chi2) << (result.by_qr ? ", by QR" : "") << '\n';
+  cmd::say((result.converged ? "converged after " : "not converged after ") +
+           std::to_string(result.iterations) +
+           (result.iterations == 1 ? " iteration, " : " iterations, ") + rounded(seconds) +
+           " s: chi-square from " + rounded(result.initial_chi2) + " to " + rounded(result.chi2) +
+           (result.by_qr ? ", by QR" : ""));
 }
 
 // Without an -i of the user's, iterations that do not converge are an error: what they reach is of no use.
@@ -201,6 +206,7 @@ void check_converged(const cmd::Command& command, const Options& options,
   if (result.converged) return;
   const std::string cause = "not converged after " + std::to_string(result.iterations) +
                             " iterations, chi-square " + text::format_number(result.chi2);
+  if (result.stopped) return cmd::warn(command, "interrupted: " + cause);
   if (options.iterations || options.keep) return cmd::warn(command, cause);
   throw text::computation_error(
       cause + ", from " + text::format_number(result.initial_chi2) +
@@ -213,21 +219,23 @@ void check_converged(const cmd::Command& command, const Options& options,
 void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem,
            factor::Values values) {
   const auto begin = std::chrono::steady_clock::now();
+  cmd::stage("order");
   const graph::Order order = named_order(options, *problem.graph).order;
   factor::LinearSystem system = factor::make_linear_system(problem);
   const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
-  const solve::BatchOptions batch = batch_options(options);
-  std::optional<cmd::Progress> progress(std::in_place, command.name, "iteration", batch.iterations);
-  std::function<void(const solve::Iteration&)> report = [&](const solve::Iteration& iteration) {
-    progress->update(iteration.number);
-  };
+  solve::BatchOptions batch = batch_options(options);
+  batch.stop = cmd::interrupted;
+  cmd::finish_first();
+  cmd::stage("solve", batch.iterations);
   if (command.verbose) {
-    std::cerr << "iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n";
+    cmd::print_error("iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n");
     print_iteration({0, factor::chi2(problem, values, batch.kernel), 0, 0, true, 0, 0});
-    report = print_iteration;
   }
+  const auto report = [&](const solve::Iteration& iteration) {
+    cmd::progress(iteration.number);
+    if (command.verbose) print_iteration(iteration);
+  };
   const solve::BatchResult result = solve::optimize(problem, system, solver, batch, values, report);
-  progress.reset();
   check_converged(command, options, result);
   if (result.scale_free) {
     cmd::warn(
@@ -251,6 +259,7 @@ void run(const cmd::Command& command, const Options& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
   const Graph graph = cmd::read(options.input);
+  cmd::stage("start");
   const factor::Problem problem = factor::make_problem(graph);
   factor::Values values =
       options.from_edges ? factor::initial_values(problem) : factor::start_values(problem);

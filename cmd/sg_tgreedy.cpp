@@ -72,6 +72,19 @@ void print_trace(const Options& options, const Graph& graph,
   output.commit();
 }
 
+std::vector<prune::Accepted> chosen(const cmd::Prunable& from, std::size_t count,
+                                    trees::Weights weights, std::optional<Index> online) {
+  const prune::GoOn go_on = [](std::size_t kept) {
+    cmd::progress(static_cast<std::int64_t>(kept));
+    return kept == 0 || !cmd::interrupted();
+  };
+  cmd::finish_first();
+  cmd::stage("prune", static_cast<std::int64_t>(count));
+  return online ? prune::tgreedy_online(from.graph, from.poses, from.candidates, count, weights,
+                                        *online, go_on)
+                : prune::tgreedy(from.graph, from.candidates, count, weights, go_on);
+}
+
 void warn_of_parts(const cmd::Command& command, const Graph& graph, const graph::PoseIndex& poses,
                    const prune::Removal& removal) {
   const Index parts = prune::pose_parts(graph, poses, removal.edge);
@@ -88,10 +101,7 @@ void run(const cmd::Command& command, const Options& options) {
   const cmd::Prunable from = cmd::read_prunable(pruning);
   const auto& [graph, poses, kind, candidates] = from;
   const auto count = cmd::kept_count(options.amount, from, options.pruning.input.options);
-  const trees::Weights weights = trees::tree_weights(options.weights).value();
-  const auto accepted =
-      online ? prune::tgreedy_online(graph, poses, candidates, count, weights, *online)
-             : prune::tgreedy(graph, candidates, count, weights);
+  const auto accepted = chosen(from, count, trees::tree_weights(options.weights).value(), online);
   prune::Removal removal = prune::nothing_removed(graph);
   for (const Index e : candidates) removal.edge[e] = true;
   for (const prune::Accepted& step : accepted) removal.edge[step.edge] = false;

@@ -3,8 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
-#include <iostream>
+#include <system_error>
 
 #include "lib/text/words.h"
 
@@ -49,12 +48,21 @@ void add_read_options(Command& command, formats::ReadOptions& options) {
 }
 
 int report(const Command& command, const text::Error& error) {
-  std::cerr << command.name << ": " << text::message(error) << '\n';
+  print_error(command.name + ": " + text::message(error) + "\n");
   return static_cast<int>(error.fault);
 }
 
+// What is needed depends on the graph: where it ran out, and with how much, is what can be told.
+text::Error out_of_memory() {
+  char much[32];
+  std::snprintf(much, sizeof much, "%.0f MB", peak_memory());
+  const std::string stage = current_stage();
+  return text::computation_error("out of memory (" + (stage.empty() ? "" : stage + ": ") + much +
+                                 " were in use)");
+}
+
 int usage_failure(const Command& command, const std::string& cause) {
-  std::cerr << command.name << ": " << cause << " (see " << command.name << " --help)\n";
+  print_error(command.name + ": " + cause + " (see " + command.name + " --help)\n");
   return static_cast<int>(text::Fault::usage);
 }
 
@@ -86,7 +94,10 @@ int guarded(const Command& command, const std::function<int()>& work) {
                ? usage_failure(command, error.what())
                : report(command, error);
   } catch (const std::bad_alloc&) {
-    return report(command, text::computation_error("out of memory"));
+    return report(command, out_of_memory());
+  } catch (const std::system_error& error) {  // threads that cannot be made
+    const bool memory = error.code() == std::errc::resource_unavailable_try_again;
+    return report(command, memory ? out_of_memory() : text::computation_error(error.what()));
   } catch (const std::exception& error) {
     return report(command, text::computation_error(error.what()));
   }
@@ -111,11 +122,10 @@ int run(Command& command, int argc, char** argv, const std::function<void()>& wo
 }
 
 int run_status(Command& command, int argc, char** argv, const std::function<int()>& work) {
-  clean_up_on_signals();
-  std::signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE, and temporary files are removed
+  watch_signals(command.name);
   command.call = command.name;
   for (int k = 1; k < argc; ++k) command.call += " " + shell_quoted(argv[k]);
-  return guarded(command, [&] {
+  const int status = guarded(command, [&] {
     try {
       command.app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -125,12 +135,16 @@ int run_status(Command& command, int argc, char** argv, const std::function<int(
     } catch (const CLI::ParseError& error) {
       return usage_failure(command, readable(error.what()));
     }
+    begin_stages(command.name, command.quiet, command.verbose);
     return work();
   });
+  end_stages(status == 0);
+  leave_if_interrupted();
+  return status;
 }
 
 void warn(const Command& command, const std::string& text) {
-  if (!command.quiet) std::cerr << command.name << ": " << text << '\n';
+  if (!command.quiet) print_error(command.name + ": " + text + "\n");
 }
 
 void add_input(Command& command, Input& input) {
@@ -148,7 +162,24 @@ void add_inputs(Command& command, Inputs& inputs) {
 text::Text read_text(const Input& input) {
   if (input.path == "-" && ::isatty(STDIN_FILENO))
     throw text::usage_error("no graph: give a FILE or pipe one in");
+  begin_reading(input.path);
   return text::read_text(input.path);
+}
+
+void begin_reading(const std::string& path) {
+  stage("read");
+  set_input_name(text::input_name(path));
+}
+
+void note_graph(const Graph& graph, std::string_view format, std::size_t bytes) {
+  Index poses = 0, landmarks = 0;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    poses += graph.role(v) == graph::Role::pose;
+    landmarks += graph.role(v) == graph::Role::landmark;
+  }
+  note(graph.file + ": " + std::string(format) + ", " + std::to_string(bytes) + " bytes, " +
+       std::to_string(poses) + " poses, " + std::to_string(landmarks) + " landmarks, " +
+       std::to_string(graph.edges()) + " edges");
 }
 
 Graph read(const Input& input) {
@@ -156,11 +187,14 @@ Graph read(const Input& input) {
 }
 
 Graph read(const Input& input, text::Text text) {
+  const std::string_view format = formats::find_format(input.options, text.view).name;
+  const std::size_t bytes = text.view.size();
   Graph graph =
       formats::read_graph_text(std::move(text), text::input_name(input.path), input.options);
   // Nothing at all is what a failed command upstream leaves, not a graph.
   if (graph.vertices() == 0)
     throw text::input_error(graph.file, 0, "there is no vertex and no edge in it");
+  note_graph(graph, format, bytes);
   return graph;
 }
 
@@ -180,7 +214,7 @@ void add_filter_output(CLI::App& app, OutputOptions& output) {
 }
 
 void add_output(CLI::App& app, OutputOptions& output, const std::string& what) {
-  app.add_option("-o,--output", output.path, what)->option_text("FILE");
+  app.add_option("-o,--output", output.path, what)->option_text("FILE")->each(check_output);
 }
 
 void add_output(Command& command, OutputOptions& output) {
@@ -215,6 +249,7 @@ void mark_stale_orders(const Command& command, const Graph& graph, formats::Chan
 
 void write_filtered(const Command& command, const OutputOptions& options, const Graph& graph,
                     formats::Changes changes) {
+  stage("write");
   Output output(options.path);
   mark_stale_orders(command, graph, changes);
   formats::write_changed(graph, std::move(changes), trace_comment(command, options), output);

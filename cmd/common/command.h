@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cmd/common/output.h"
+#include "cmd/common/stage.h"
 #include "formats/formats.h"
 
 namespace sg::cmd {
@@ -29,7 +30,7 @@ struct Answer {
 };
 
 // Parses, calls `work`, and returns the exit status: 0; or 1, 2, 3 after one line on standard
-// error.
+// error; or does not return, but dies of the signal that interrupted it (interrupt.h).
 // --help, --version and a reader that closes the pipe end with 0.
 int run(Command& command, int argc, char** argv, const std::function<void()>& work);
 // The same where the work itself knows its status (sg-check).
@@ -66,6 +67,9 @@ Graph read(const Input& input);
 text::Text read_text(const Input& input);
 Graph read(const Input& input, text::Text text);
 Graph read(const Inputs& inputs, const std::string& path);
+// For commands that read in ways of their own: the stage "read", and what it says with -v.
+void begin_reading(const std::string& path);
+void note_graph(const Graph& graph, std::string_view format, std::size_t bytes);
 
 // -o FILE, and for filters --no-trace-comment.
 struct OutputOptions {

@@ -32,6 +32,12 @@ void check(const MethodOptions& options) {
   for (const auto& name : options.names) order::find_ordering(name);
 }
 
+void stop_when_interrupted(const order::Ordering& ordering, order::OrderOptions& options) {
+  if (&ordering != &order::find_ordering("best")) return;
+  finish_first();
+  options.stop = interrupted;
+}
+
 std::vector<Method> methods(const MethodOptions& options, const Graph& graph) {
   if (options.names.empty()) {
     if (graph.order_method.empty())
@@ -47,6 +53,7 @@ graph::Order order_by(const Method& method, const MethodOptions& options, const 
                       const graph::GraphPattern& variables) {
   order::OrderOptions order_options = order::order_options(graph, variables);
   order_options.seed = options.seed;
+  stop_when_interrupted(*method.ordering, order_options);
   return order::elimination_order(*method.ordering, variables.pattern, order_options);
 }
 

@@ -21,6 +21,9 @@ void add_method(Command& command, MethodOptions& options);   // -m NAME
 // Throws a usage Error for a name that no ordering has: worth knowing before a graph is read.
 void check(const MethodOptions& options);
 
+// An anytime ordering ends with the best so far at an interruption (interrupt.h).
+void stop_when_interrupted(const order::Ordering& ordering, order::OrderOptions& options);
+
 struct Method {
   std::string label;  // its name; "file:NAME" where sg-order's comment made the choice
   const order::Ordering* ordering;

@@ -4,14 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
+#include "cmd/common/stage.h"
 #include "lib/text/error.h"
 
 namespace sg::cmd {
@@ -26,51 +24,25 @@ mode_t new_file_mode() {
   return 0666 & ~mask;
 }
 
-// Temporary files, where a signal handler finds them: a path is whole while `taken`. No command
-// writes more files at a time.
-struct Doomed {
-  std::array<char, 4096> path;
-  std::atomic<bool> taken;
-};
-static_assert(std::atomic<bool>::is_always_lock_free);  // what a signal handler may look at
-std::array<Doomed, 4> doomed{};
-
-void doom(const std::string& path) {
-  for (Doomed& place : doomed) {
-    if (place.taken || path.size() >= place.path.size()) continue;
-    path.copy(place.path.data(), path.size());
-    place.path[path.size()] = '\0';
-    place.taken = true;
-    return;
-  }
-}
-
-void spare(const std::string& path) {
-  for (Doomed& place : doomed) {
-    if (place.taken && path == place.path.data()) place.taken = false;
-  }
-}
-
-// Only what a signal handler may do.
-void on_signal(int signal) {
-  for (const Doomed& place : doomed) {
-    if (place.taken) ::unlink(place.path.data());
-  }
-  if (signal == SIGBUS) {  // a mapped file has lost its end
-    constexpr std::string_view cause = "the input became shorter while it was read\n";
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, cause.data(), cause.size());
-    ::_exit(static_cast<int>(text::Fault::input));
-  }
-  std::signal(signal, SIG_DFL);
-  ::raise(signal);
-}
-
 }  // namespace
 
-Output::Output(std::string path) : path_(std::move(path)) {
+Output::Output(std::string path) : path_(std::move(path)), state_(take_unfinished()) {
+  buffer_.reserve(buffer_size);  // and never moves
+  state_.rows = buffer_.data();
+  try {
+    open();
+  } catch (...) {
+    state_.taken = false;
+    throw;
+  }
+  state_.descriptor = descriptor_;
+}
+
+void Output::open() {
   if (path_.empty() || path_ == "-") {
     path_.clear();
     descriptor_ = STDOUT_FILENO;
+    terminal_ = ::isatty(descriptor_) != 0;
     return;
   }
   struct stat status {};
@@ -82,22 +54,26 @@ Output::Output(std::string path) : path_(std::move(path)) {
   }
   if (exists)
     path_ = std::filesystem::canonical(path_);  // through links: the file itself is replaced
-  temporary_ = path_ + ".XXXXXX";
-  descriptor_ = ::mkstemp(temporary_.data());
-  if (descriptor_ < 0) {
-    temporary_.clear();
+  const std::string temporary = path_ + ".XXXXXX";
+  if (temporary.size() >= state_.temporary.size()) {
+    errno = ENAMETOOLONG;
     fail("create");
   }
-  doom(temporary_);
+  path_.copy(state_.path.data(), path_.size());
+  state_.path[path_.size()] = '\0';
+  temporary.copy(state_.temporary.data(), temporary.size());
+  state_.temporary[temporary.size()] = '\0';
+  descriptor_ = ::mkstemp(state_.temporary.data());
+  if (descriptor_ < 0) fail("create");
   ::fchmod(descriptor_, exists ? status.st_mode & 07777 : new_file_mode());
 }
 
 Output::~Output() {
-  if (!temporary_.empty()) {
-    ::unlink(temporary_.c_str());
-    spare(temporary_);
-  }
+  state_.kept = false;
+  if (!path_.empty()) state_.finished = 0;
+  settle(state_);
   if (!path_.empty() && descriptor_ >= 0) ::close(descriptor_);
+  state_.taken = false;
 }
 
 void Output::fail(const char* doing) const {
@@ -106,45 +82,69 @@ void Output::fail(const char* doing) const {
                     std::string("cannot ") + doing + ": " + cause);
 }
 
-void Output::flush(std::string_view bytes) {
+void Output::pass_on(std::string_view bytes) {
+  if (terminal_) erase_progress();
+  state_.partial = path_.empty() && !rows_ && !terminal_;
   while (!bytes.empty()) {
     const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && errno == EPIPE) throw ClosedPipe{};
     if (count < 0) fail("write");
+    written_ += count;
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
 }
 
+void Output::pass_on_buffer() {
+  state_.writing = rows_;  // of which a part would be passed on twice
+  state_.finished = 0;
+  pass_on(buffer_);
+  buffer_.clear();
+  state_.writing = false;
+  if (rows_) leave_if_due();
+}
+
 void Output::write(std::string_view bytes) {
-  if (buffer_.size() + bytes.size() > buffer_size) {
-    flush(buffer_);
-    buffer_.clear();
-  }
+  if (buffer_.size() + bytes.size() > buffer_size) pass_on_buffer();
   if (bytes.size() > buffer_size) {
-    flush(bytes);
+    pass_on(bytes);
   } else {
     buffer_ += bytes;
   }
 }
 
+void Output::row(std::string_view line) {
+  rows_ = true;
+  write(line);
+  state_.finished = buffer_.size();
+  state_.kept = keep_;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - passed_on_ < std::chrono::milliseconds(100)) return;
+  passed_on_ = now;
+  pass_on_buffer();
+}
+
+void Output::keep_rows() {
+  keep_ = true;
+}
+
 void Output::commit() {
-  flush(buffer_);
-  buffer_.clear();
+  pass_on_buffer();
+  note((path_.empty() ? "<stdout>" : path_) + ": " + std::to_string(written_) + " bytes");
+  state_.partial = false;
   if (path_.empty()) return;
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) fail("write");
-  if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("rename the temporary file to");
-  spare(temporary_);
-  temporary_.clear();
+  if (state_.temporary[0] == '\0') return;
+  if (::rename(state_.temporary.data(), path_.c_str()) != 0) fail("rename the temporary file to");
+  state_.temporary[0] = '\0';
 }
 
-void clean_up_on_signals() {
-  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGBUS}) {
-    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
-  }
+void check_output(const std::string& path) {
+  struct stat status {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (!exists || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) const Output trial(path);
 }
 
 }  // namespace sg::cmd

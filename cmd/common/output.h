@@ -1,9 +1,12 @@
 // Where a command writes: standard output, or a file that appears whole or not at all.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "cmd/common/interrupt.h"
 #include "formats/write.h"
 
 namespace sg::cmd {
@@ -23,20 +26,31 @@ class Output final : public formats::Sink {
   Output& operator=(const Output&) = delete;
 
   void write(std::string_view bytes) override;
+  // A line that is of use without those to come: of standard output, a reader has it when a tenth of a second has passed
+  // and the next one comes, after an error, and after an interruption.
+  void row(std::string_view line);
+  // After an interruption, what rows there are take the file's name, too.
+  void keep_rows();
   void commit();
 
  private:
-  void flush(std::string_view bytes);
+  void open();
+  void pass_on(std::string_view bytes);
+  void pass_on_buffer();
   [[noreturn]] void fail(const char* doing) const;
 
   std::string path_;
-  std::string temporary_;  // empty where the descriptor is the destination itself
+  Unfinished& state_;  // which names the temporary file, if there is one
   int descriptor_ = -1;
   std::string buffer_;
+  std::int64_t written_ = 0;
+  bool rows_ = false;
+  bool keep_ = false;
+  bool terminal_ = false;
+  std::chrono::steady_clock::time_point passed_on_ = std::chrono::steady_clock::now();
 };
 
-// A command that is interrupted, or whose mapped input shrinks under it, removes its temporary file
-// before it ends.
-void clean_up_on_signals();
+// Throws Output's Error where a file of this path cannot be made: worth knowing before a long computation.
+void check_output(const std::string& path);
 
 }  // namespace sg::cmd

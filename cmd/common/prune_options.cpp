@@ -85,15 +85,13 @@ std::size_t kept_count(const Amount& amount, const Prunable& prunable,
                   prune::candidate_edges(like, graph::pose_index(like), prunable.kind).size());
 }
 
-formats::Changes pruned(const Command& command, const Graph& graph, const graph::PoseIndex& poses,
-                        Index min_obs, prune::Removal removal) {
+formats::Changes pruned(const Graph& graph, const graph::PoseIndex& poses, Index min_obs,
+                        prune::Removal removal) {
   prune::sweep_landmarks(graph, poses, min_obs, removal);
-  if (command.verbose) {
-    const auto vertices = std::count(removal.vertex.begin(), removal.vertex.end(), true);
-    const auto edges = std::count(removal.edge.begin(), removal.edge.end(), true);
-    warn(command, "removed " + counted(vertices, removal.vertex.size(), "vertices") + ", " +
-                      counted(edges, removal.edge.size(), "edges"));
-  }
+  const auto vertices = std::count(removal.vertex.begin(), removal.vertex.end(), true);
+  const auto edges = std::count(removal.edge.begin(), removal.edge.end(), true);
+  note("removed " + counted(vertices, removal.vertex.size(), "vertices") + ", " +
+       counted(edges, removal.edge.size(), "edges"));
   formats::Changes changes;
   changes.drop_vertex = std::move(removal.vertex);
   changes.drop_edge = std::move(removal.edge);
@@ -104,7 +102,7 @@ void write_pruned(const Command& command, const PruneOptions& options, const Pru
                   prune::Removal removal) {
   const auto& [graph, poses, kind, candidates] = prunable;
   write_filtered(command, options.output, graph,
-                 pruned(command, graph, poses, options.min_obs, std::move(removal)));
+                 pruned(graph, poses, options.min_obs, std::move(removal)));
 }
 
 void warn_if_nothing_goes(const Command& command, const Prunable& prunable,
@@ -126,6 +124,7 @@ void warn_if_nothing_goes(const Command& command, const Prunable& prunable,
 void prune(const Command& command, const PruneOptions& options, bool asked,
            const std::function<std::vector<bool>(const Prunable&)>& kept) {
   const Prunable prunable = read_prunable(options);
+  stage("prune");
   const std::vector<bool> stays = kept(prunable);
   warn_if_nothing_goes(command, prunable, stays, asked);
   write_pruned(command, options, prunable,

@@ -50,8 +50,8 @@ void warn_if_nothing_goes(const Command& command, const Prunable& prunable,
                           const std::vector<bool>& kept, bool asked);
 
 // The changes to a graph that a removal makes, after a sweep of its landmarks; -v reports them.
-formats::Changes pruned(const Command& command, const Graph& graph, const graph::PoseIndex& poses,
-                        Index min_obs, prune::Removal removal);
+formats::Changes pruned(const Graph& graph, const graph::PoseIndex& poses, Index min_obs,
+                        prune::Removal removal);
 // Writes the graph without what a removal makes leave.
 void write_pruned(const Command& command, const PruneOptions& options, const Prunable& prunable,
                   prune::Removal removal);

@@ -137,7 +137,7 @@ void write_row(const std::vector<std::string>& names, const std::vector<Cell>& c
       line += (k ? "\t" : "") + text(cells[k]);
     }
   }
-  output.write(line + (json ? "}\n" : "\n"));
+  output.row(line + (json ? "}\n" : "\n"));
 }
 
 }  // namespace sg::cmd

@@ -3,6 +3,7 @@
 #include <amd.h>
 #include <camd.h>
 
+#include <new>
 #include <string>
 
 #include "lib/order/constraint.h"
@@ -13,6 +14,7 @@ namespace sg::order::methods {
 namespace {
 
 void check(int status) {
+  if (status == AMD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (status != AMD_OK)
     throw text::computation_error("AMD failed (status " + std::to_string(status) + ")");
 }

@@ -158,12 +158,17 @@ graph::Order with_improvements(const Search& search, std::vector<Try>& tries) {
   return order;
 }
 
+bool stopped(const Search& search) {
+  return search.options.stop && search.options.stop();
+}
+
 void report(const Search& search, std::string_view how, int tries, const Clock& clock) {
   if (!search.options.report) return;
   search.options.report({how, tries, clock.seconds(), search.best.ec});
 }
 
-// Every other method; of equals the one that stands first in the table.
+// Every other method; of equals the one that stands first in the table. Only the first, which takes no time, is there
+// in any case.
 void take_best_method(Search& search, const Clock& clock) {
   std::vector<const Ordering*> methods;
   for (const Ordering& method : orderings()) {
@@ -171,11 +176,12 @@ void take_best_method(Search& search, const Clock& clock) {
   }
   std::vector<Elimination> found(methods.size());
   tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {
+    if (i > 0 && stopped(search)) return;
     found[i] =
         elimination(search.pattern, elimination_order(*methods[i], search.pattern, search.options));
   });
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (i > 0 && found[i].ec >= search.best.ec) continue;
+    if (i > 0 && (found[i].order.empty() || found[i].ec >= search.best.ec)) continue;
     take(search, std::move(found[i]));
     report(search, methods[i]->name, 0, clock);
   }
@@ -213,7 +219,9 @@ graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
   take_best_method(search, clock);
   if (pattern.variables() == 0) return {};
   const Budget& budget = options.budget;
-  const auto time_left = [&] { return budget.seconds <= 0 || clock.seconds() < budget.seconds; };
+  const auto time_left = [&] {
+    return !stopped(search) && (budget.seconds <= 0 || clock.seconds() < budget.seconds);
+  };
   const auto tries_left = [&](int done) { return budget.seconds > 0 || done < budget.tries; };
   for (int done = 0; tries_left(done) && time_left(); done += tries_a_round) {
     std::vector<Try> tries(tries_a_round);

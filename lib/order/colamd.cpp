@@ -4,6 +4,7 @@
 #include <ccolamd.h>
 
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -39,6 +40,7 @@ graph::Order colamd(const graph::Pattern& pattern, const OrderOptions& options) 
   std::vector<int> set = constraint_sets(n, options.last);
   const bool done = ccolamd(m, n, static_cast<int>(size), a.items.data(), a.begin.data(), knobs,
                             stats, set.empty() ? nullptr : set.data());
+  if (!done && stats[CCOLAMD_STATUS] == CCOLAMD_ERROR_out_of_memory) throw std::bad_alloc();
   if (!done)
     throw text::computation_error("CCOLAMD failed (status " + std::to_string(stats[3]) + ")");
   a.begin.pop_back();

@@ -4,6 +4,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <new>
 #include <string>
 
 #include "lib/order/methods.h"
@@ -27,6 +28,7 @@ graph::Order order_part(Part& part, std::uint64_t seed) {
   const int status =
       METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.items.data(),
                    alike ? nullptr : part.dim.data(), options, order.data(), position.data());
+  if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
   if (status != METIS_OK) {
     throw text::computation_error("METIS failed (status " + std::to_string(status) + ")");
   }

@@ -44,6 +44,8 @@ struct OrderOptions {
   std::vector<bool> landmark;     // of every variable; empty: none is
   Budget budget;                  // of best
   std::function<void(const Improvement&)> report;  // of best; may be empty
+  std::function<bool()>
+      stop;  // of best, and may be empty; asked by any thread: is the best so far enough?
 };
 
 struct Ordering {

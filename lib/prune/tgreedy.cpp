@@ -115,9 +115,10 @@ void accept(Greedy& greedy, const Worth& chosen) {
   greedy.accepted.push_back(step);
 }
 
-// Accepts the best of those that wait until `total` are accepted.
-void spend(Greedy& greedy, std::size_t total) {
+// Accepts the best of those that wait until `total` are accepted. Whether to go on after that.
+bool spend(Greedy& greedy, std::size_t total, const GoOn& go_on) {
   while (greedy.accepted.size() < total && !greedy.waiting.empty()) {
+    if (go_on && !go_on(greedy.accepted.size())) return false;
     Worth top = greedy.waiting.top();
     greedy.waiting.pop();
     if (top.version != greedy.version) {
@@ -129,6 +130,7 @@ void spend(Greedy& greedy, std::size_t total) {
     }
     accept(greedy, top);
   }
+  return true;
 }
 
 // Edges by the batch of the replay that they come with; those that never enter come last.
@@ -144,20 +146,20 @@ graph::Lists<> by_batch(const Graph& graph, const graph::PoseIndex& poses, Index
 }  // namespace
 
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
-                              std::size_t count, trees::Weights weights) {
+                              std::size_t count, trees::Weights weights, const GoOn& go_on) {
   const trees::Nodes nodes = trees::tree_nodes(graph);
   const graph::Lists<trees::Edge> all = trees::tree_links(graph, nodes);
   std::vector<bool> present(graph.edges(), true);
   for (Index e : candidates) present[e] = false;
   Greedy greedy = start(graph, all, nodes, candidates, weights, present);
   for (Index e : candidates) offer(greedy, e);
-  spend(greedy, count);
+  spend(greedy, count, go_on);
   return std::move(greedy.accepted);
 }
 
 std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
-                                     trees::Weights weights, Index batch) {
+                                     trees::Weights weights, Index batch, const GoOn& go_on) {
   const trees::Nodes nodes = trees::tree_nodes(graph);
   const graph::Lists<trees::Edge> all = trees::tree_links(graph, nodes);
   Greedy greedy =
@@ -180,7 +182,9 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex&
       }
       ++greedy.version;
     }
-    if (seen > 0) spend(greedy, (2 * count * seen + candidates.size()) / (2 * candidates.size()));
+    const std::size_t share =
+        seen > 0 ? (2 * count * seen + candidates.size()) / (2 * candidates.size()) : 0;
+    if (!spend(greedy, share, go_on)) break;
   }
   return std::move(greedy.accepted);
 }

@@ -16,6 +16,7 @@
 // computed anew (Minoux 1978). The result is the textbook algorithm's.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lib/graph/graph.h"
@@ -31,17 +32,20 @@ struct Accepted {
   double criterion;  // after it: sum over layers of multiplicity * log t
 };
 
+// Told how many are accepted, and asked whether to go on: what is accepted by then is the textbook algorithm's, too.
+using GoOn = std::function<bool(std::size_t accepted)>;
+
 // The candidates to keep, in the order in which they are accepted: `count` of them, or all. Throws
 // an input Error for a candidate of other than two vertices.
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
-                              std::size_t count, trees::Weights weights);
+                              std::size_t count, trees::Weights weights, const GoOn& go_on = {});
 
 // The choice that a robot could have made: after every `batch` steps of the replay it spends that
 // batch's share of `count` on the candidates seen so far, in the graph seen so far. After c of the
 // n candidates, round(count c / n) are spent.
 std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex& poses,
                                      const std::vector<Index>& candidates, std::size_t count,
-                                     trees::Weights weights, Index batch);
+                                     trees::Weights weights, Index batch, const GoOn& go_on = {});
 
 // Parts of the graph's poses that the kept candidates and the other edges do not join.
 Index pose_parts(const Graph& graph, const graph::PoseIndex& poses,

@@ -144,8 +144,13 @@ bool is_there(const Run& run, double before, double after) {
          is_zero(run, moves);
 }
 
-void tell(const Run& run, const Iteration& iteration) {
+void tell(Run& run, const Iteration& iteration) {
   if (run.report) run.report(iteration);
+  run.result.stopped = run.options.stop && run.options.stop();
+}
+
+bool goes_on(const Run& run) {
+  return run.result.iterations < run.options.iterations && !run.result.stopped;
 }
 
 // The step that the system promises. Where the start's was regular and this one is not, the iterations went astray.
@@ -163,7 +168,7 @@ void gauss_newton_step(Run& run) {
 
 bool gauss_newton(Run& run) {
   BatchResult& result = run.result;
-  while (result.iterations < run.options.iterations) {
+  while (goes_on(run)) {
     Stopwatch watch;
     try {
       relinearize(run);
@@ -221,7 +226,7 @@ bool levenberg_marquardt(Run& run) {
   if (result.by_qr) damping.lambda = first_lambda_by_qr;
   std::vector<double> added(run.problem.step_at.back());
   bool stale = false;  // the system is not that of the values
-  while (result.iterations < run.options.iterations && damping.lambda < largest_lambda) {
+  while (goes_on(run) && damping.lambda < largest_lambda) {
     watch.lap();
     if (stale) {
       relinearize(run);

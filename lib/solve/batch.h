@@ -29,6 +29,7 @@ struct BatchOptions {
   int iterations = 100;     // at most
   double tolerance = 1e-9;  // of the share by which a last step changes chi2
   factor::Kernel kernel;
+  std::function<bool()> stop;  // asked after every iteration, if given: are these enough?
 };
 
 struct Iteration {
@@ -45,6 +46,7 @@ struct BatchResult {
   double chi2;
   int iterations;
   bool converged;
+  bool stopped = false;     // by BatchOptions::stop, before that
   bool scale_free = false;  // nothing fixed it: it is near the start's
   bool by_qr = false;       // normal equations lost too many digits
 };

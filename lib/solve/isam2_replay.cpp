@@ -47,6 +47,25 @@ void start_vertex(Isam2Replay& replay, Index v, std::span<const Index> edges) {
   replay.placed[v] = true;
 }
 
+text::Error diverged(Index step) {
+  return text::computation_error(
+      "step " + std::to_string(step) +
+      ": the iterations diverge: the estimate has left the range in which its measurements "
+      "determine it; start elsewhere (--init), or solve it in batch (sg-solve)");
+}
+
+// Whether the rows that are there determine all, where vertices start: then iterations went astray.
+bool determined_at_start(const Isam2Replay& replay, Snapshot& snapshot) {
+  const factor::Problem& problem = *replay.problem;
+  try {
+    linearize_at(problem, replay.start_from_file ? replay.file : factor::initial_values(problem),
+                 snapshot);
+  } catch (const text::Error&) {  // there is no derivative there
+    return false;
+  }
+  return null_space(snapshot.system).dimension == 0;
+}
+
 // Elimination names the last variables of what is free to move; the null space knows them all.
 [[noreturn]] void throw_singular(const Isam2Replay& replay, Index step) {
   const factor::Problem& problem = *replay.problem;
@@ -56,8 +75,10 @@ void start_vertex(Isam2Replay& replay, Index v, std::span<const Index> edges) {
   for (Index j : snapshot.variable) {
     id.push_back(problem.graph->id[problem.variables.variable_vertex[j]]);
   }
+  const NullSpace open = null_space(snapshot.system);
+  if (open.dimension > 0 && determined_at_start(replay, snapshot)) throw diverged(step);
   throw text::computation_error("step " + std::to_string(step) + ": " +
-                                singular_error(null_space(snapshot.system), id).what());
+                                singular_error(open, id).what());
 }
 
 }  // namespace
@@ -101,9 +122,7 @@ Isam2Report replay_step(Isam2Replay& replay, Index k) {
   }
   const Isam2Report report = update(replay.isam, variables, rows);
   if (!report.undetermined.empty()) throw_singular(replay, k);
-  if (!report.finite)
-    throw text::computation_error("step " + std::to_string(k) +
-                                  ": the estimate has left the finite numbers");
+  if (!report.finite) throw diverged(k);
   return report;
 }
 

@@ -3,10 +3,11 @@
 namespace sg::solve {
 namespace {
 
-void take_patterns(const Isam2& isam, Snapshot& snapshot, std::vector<Index>& row) {
+void take_patterns(const Isam2& isam, Snapshot& snapshot) {
   const graph::Pattern& whole = isam.problem->variables.pattern;
   std::vector<Index> number(whole.variables(), -1);
   snapshot.variable.clear();
+  snapshot.row.clear();
   graph::Pattern& pattern = snapshot.pattern;
   pattern.dim.clear();
   pattern.rows.clear();
@@ -22,7 +23,7 @@ void take_patterns(const Isam2& isam, Snapshot& snapshot, std::vector<Index>& ro
     graph::Pattern& target = r == isam.problem->graph->edges() ? snapshot.anchored : pattern;
     for (Index j : whole.rows[r]) target.rows.items.push_back(number[j]);
     target.rows.close();
-    row.push_back(r);
+    snapshot.row.push_back(r);
   }
   if (isam.problem->held < 0) snapshot.anchored = pattern;
 }
@@ -30,23 +31,27 @@ void take_patterns(const Isam2& isam, Snapshot& snapshot, std::vector<Index>& ro
 }  // namespace
 
 void take_snapshot(const Isam2& isam, bool numbers, Snapshot& snapshot) {
-  std::vector<Index> row;  // of the problem, by row of the snapshot
-  take_patterns(isam, snapshot, row);
+  take_patterns(isam, snapshot);
   if (!numbers) return;
   const factor::Problem& problem = *isam.problem;
   factor::LinearSystem& system = snapshot.system;
   system.pattern = &snapshot.anchored;
   system.height.clear();
   system.begin.assign(1, 0);
-  for (Index r : row) {
+  for (Index r : snapshot.row) {
     system.height.push_back(factor::block_rows(problem, r));
     system.begin.push_back(system.begin.back() +
                            system.height.back() *
                                factor::block_columns(problem.variables.pattern, r));
   }
   system.numbers.resize(system.begin.back());
-  for (Index k = 0; k < static_cast<Index>(row.size()); ++k)
-    factor::linearize_row(problem, isam.linearized, {}, row[k], system.block(k));
+  linearize_at(problem, isam.linearized, snapshot);
+}
+
+void linearize_at(const factor::Problem& problem, const factor::Values& values,
+                  Snapshot& snapshot) {
+  for (Index k = 0; k < static_cast<Index>(snapshot.row.size()); ++k)
+    factor::linearize_row(problem, values, {}, snapshot.row[k], snapshot.system.block(k));
 }
 
 }  // namespace sg::solve

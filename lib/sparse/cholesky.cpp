@@ -1,9 +1,14 @@
 #include "lib/sparse/cholesky.h"
 
+#include <sys/resource.h>
+
 #include <limits>
+#include <new>
 #include <string>
 
 #include "lib/text/error.h"
+
+extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
 
 namespace sg::sparse {
 namespace {
@@ -16,7 +21,7 @@ text::Error too_large() {
 void check(const Cholmod& session) {
   const int status = session.common.status;
   if (status >= CHOLMOD_OK) return;
-  if (status == CHOLMOD_OUT_OF_MEMORY) throw text::computation_error("CHOLMOD ran out of memory");
+  if (status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (status == CHOLMOD_TOO_LARGE) throw too_large();
   throw text::computation_error("CHOLMOD failed (status " + std::to_string(status) + ")");
 }
@@ -28,9 +33,18 @@ Handle checked(typename Handle::pointer result, Cholmod& session) {
   return handle;
 }
 
+// OpenMP, which CHOLMOD's loops use, ends the process where it cannot make its threads: where memory is limited
+// (ulimit -v), it makes none.
+void spare_threads() {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_AS, &limit);
+  if (limit.rlim_cur != RLIM_INFINITY && omp_set_max_active_levels) omp_set_max_active_levels(0);
+}
+
 }  // namespace
 
 Cholmod::Cholmod() {
+  spare_threads();
   cholmod_start(&common);
   common.print = 0;
 }

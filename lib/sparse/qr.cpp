@@ -3,6 +3,7 @@
 #include <SuiteSparseQR.hpp>
 #include <cassert>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "lib/text/error.h"
@@ -35,9 +36,8 @@ using Dense = std::unique_ptr<cholmod_dense, Freed<cholmod_l_free_dense>>;
 void check(const Session& session) {
   const int status = session.common.status;
   if (status >= CHOLMOD_OK) return;
-  throw text::computation_error(status == CHOLMOD_OUT_OF_MEMORY
-                                    ? "SPQR ran out of memory"
-                                    : "SPQR failed (status " + std::to_string(status) + ")");
+  if (status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw text::computation_error("SPQR failed (status " + std::to_string(status) + ")");
 }
 
 Sparse compressed(Entries& A, Session& session) {

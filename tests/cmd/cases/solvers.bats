@@ -27,15 +27,15 @@ chain() {
   near "$(sg-solve --chi2 solved.g2o)" 0
   chain 3000 > chain.g2o
   run -0 sg-solve -v chain.g2o -o solved.g2o
-  [ "${#lines[@]}" -le 4 ]
-  [[ ${lines[-1]} == "sg-solve: converged after "* ]]
+  [ "$(grep -c "^[0-9]" <<<"$output")" -le 2 ]
+  [[ $output == *$'\n'"sg-solve: converged after "* ]]
 }
 
 @test "odometry alone is solved in one step" {
   run -0 sg-solve -v --gn --init 71-odometry-only-2d.g2o -o solved.g2o
-  [[ ${lines[-1]} == "sg-solve: converged after 1 iteration, "* ]]
+  [[ $output == *$'\n'"sg-solve: converged after 1 iteration, "* ]]
   run -0 sg-solve -v --gn 71-odometry-only-2d.g2o -o solved.g2o
-  [[ ${lines[-1]} == "sg-solve: converged after "* ]]
+  [[ $output == *$'\n'"sg-solve: converged after "* ]]
   near "$(sg-solve --chi2 solved.g2o)" 0
 }
 

@@ -38,7 +38,7 @@ observations() { awk '/^EDGE_SE2_XY/ {print $2 "-" $3}' | paste -sd' '; }
 @test "landmarks with too few observations leave with their edges" {
   sg-dec -r 2 --min-obs 3 walk.g2o >out.g2o
   run -1 grep _XY out.g2o
-  [ "$(sg-dec -v -r 2 --min-obs 3 -o out.g2o walk.g2o 2>&1)" = "sg-dec: removed 2 of 7 vertices, 6 of 11 edges" ]
+  [[ $(sg-dec -v -r 2 --min-obs 3 -o out.g2o walk.g2o 2>&1) == *" removed 2 of 7 vertices, 6 of 11 edges"* ]]
 }
 
 @test "wrong calls" {

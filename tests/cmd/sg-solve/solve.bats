@@ -48,11 +48,11 @@ setup() {
 }
 
 @test "a row an iteration, beginning with the start" {
-  sg-solve -v types-se2.g2o 2>rows >/dev/null
+  sg-solve -v types-se2.g2o 2>log >/dev/null
+  grep -v '^sg-solve:' log >rows
   [ "$(head -n 1 rows)" = "$(printf 'iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s')" ]
   near "$(sed -n 2p rows | cut -f2)" 128.371198 5e-7
-  [[ $(tail -n 1 rows) == "sg-solve: converged after "*" s: chi-square from 128.371 to 6.51528" ]]
-  sed -i '$d' rows
+  grep -qE '^sg-solve: converged after [0-9]+ iterations, [-.e0-9]+ s: chi-square from 128.371 to 6.51528$' log
   near "$(tail -n 1 rows | cut -f2)" 6.515277 5e-7
   [ "$(tail -n 1 rows | cut -f1)" -eq $(($(wc -l <rows) - 2)) ]
 }
