@@ -211,18 +211,6 @@ TEST_CASE("chi-square is g2o's", "[factor]") {
   CHECK(chi2_of("types-expmap.g2o") == Approx(5021.171853).margin(6e-7));
 }
 
-TEST_CASE("a camera at the end of a line is fx fy cx cy, and bf of a stereo pair", "[factor]") {
-  const Graph graph = graph_of(
-      "VERTEX_SE3:EXPMAP 0 0 0 0 0 0 0 1\nVERTEX_XYZ 1 1 2 4\nFIX 0\n"
-      // u = 400 / 4 + 10, v = 100 * 2 / 4 + 20, and 80 / 4 to the left of u
-      "EDGE_SE3_PROJECT_XYZ:EXPMAP 1 0 111 71 1 0 1 400 100 10 20\n"
-      "EDGE_STEREO_SE3_PROJECT_XYZ:EXPMAP 1 0 112 73 94 1 0 0 1 0 1 400 100 10 20 80\n");
-  const factor::Problem problem = factor::make_problem(graph);
-  const factor::Values values = factor::file_values(problem);
-  CHECK(factor::edge_chi2(problem, values, 0) == Approx(1 + 1));
-  CHECK(factor::edge_chi2(problem, values, 1) == Approx(4 + 9 + 16));
-}
-
 TEST_CASE("the files of every type hold every type", "[factor]") {
   std::string text;
   for (const char* name : {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o"}) {

@@ -101,15 +101,6 @@ TEST_CASE("spanning trees weigh their edges", "[score]") {
         Approx(2 * std::log(a * b + b * c + c * a) + std::log(d * e + e * f + f * d)));
 }
 
-TEST_CASE("a prior links nothing, whatever the weights", "[score]") {
-  const std::string edge = "EDGE_SE2 1 2 1 0 0 4 0 0 4 0 9\n";
-  const Graph with = graph_of(edge + "EDGE_PRIOR_SE2 1 0 0 0 5 0 0 5 0 5\n"),
-              without = graph_of(edge);
-  for (const auto weights : {trees::Weights::unit, trees::Weights::translation,
-                             trees::Weights::rotation, trees::Weights::dopt})
-    CHECK(trees::log_trees(with, weights) == trees::log_trees(without, weights));
-}
-
 TEST_CASE("fixed vertices are one node, points do not rotate", "[score]") {
   CHECK(trees::log_trees(graph_of(text_of_graph(4, cycle(4)) + "FIX 0 2\n"), unit) ==
         Approx(std::log(4)));
