@@ -12,7 +12,6 @@ set(public_headers
   lib/score/*.h
   lib/solve/batch.h lib/solve/isam2.h lib/solve/isam2_replay.h
   lib/trees/*.h
-  lib/trees/*.h
   lib/world/*.h)
 
 foreach(pattern ${public_headers})

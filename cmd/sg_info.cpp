@@ -48,7 +48,7 @@ const std::vector<cmd::Column<Row>> facts{
      [](Row& row) { return average(row.summary.sights, row.summary.poses); }},
     {"edges_per_vertex", "Average number of edges at a vertex",
      [](Row& row) {
-       return average(static_cast<std::int64_t>(row.graph.edge_vertices.size()),
+       return average(static_cast<std::int64_t>(row.graph.edge_vertices.items.size()),
                       row.graph.vertices());
      }},
     count("max_edges_per_vertex", "Largest number of edges at a vertex",

@@ -44,7 +44,7 @@ struct Whole {
 Whole whole(const solve::Isam2& isam) {
   solve::Snapshot snapshot;
   solve::take_snapshot(isam, false, snapshot);
-  graph::Order order = order::elimination_order("colamd", snapshot.pattern);
+  graph::Order order = order::elimination_order(order::default_ordering, snapshot.pattern);
   const elim::Wide ec = elim::elimination_complexity(snapshot.pattern, order);
   return {std::move(order), ec};
 }

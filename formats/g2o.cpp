@@ -128,7 +128,7 @@ void parse_edge(Parser& parser, graph::TypeIndex type_index, Offset at, std::str
   if (parser.edge_ids.small.size() > std::numeric_limits<Index>::max()) throw too_large(graph);
   graph.edge_type.push_back(type_index);
   graph.edge_line.push_back(at);
-  graph.edge_begin.push_back(static_cast<Index>(parser.edge_ids.small.size()));
+  graph.edge_vertices.begin.push_back(static_cast<Index>(parser.edge_ids.small.size()));
 }
 
 void parse_param(Parser& parser, graph::ParamTag type, Offset at, std::string_view tag,
@@ -220,7 +220,7 @@ void reserve(Parser& parser) {
   graph.vertex_line.reserve(lines);
   graph.edge_type.reserve(lines);
   graph.edge_line.reserve(lines);
-  graph.edge_begin.reserve(lines + 1);
+  graph.edge_vertices.begin.reserve(lines + 1);
   parser.edge_ids.small.reserve(2 * lines);
 }
 
@@ -327,8 +327,9 @@ void imply_vertices(Parser& parser) {
           graph, graph.edge_line[e],
           type.tag + " does not say what its vertices are, and the file has no VERTEX lines");
     }
-    for (Index k = graph.edge_begin[e]; k < graph.edge_begin[e + 1]; ++k) {
-      const graph::VertexTag end = type.ends[std::min(k - graph.edge_begin[e], type.ends.size - 1)];
+    for (Index k = graph.edge_vertices.begin[e]; k < graph.edge_vertices.begin[e + 1]; ++k) {
+      const graph::VertexTag end =
+          type.ends[std::min(k - graph.edge_vertices.begin[e], type.ends.size - 1)];
       mentions.push_back({parser.edge_ids[k], static_cast<graph::TypeIndex>(end), e});
     }
   }
@@ -358,7 +359,7 @@ void resolve_edges(Parser& parser, const VertexLookup& lookup) {
   Index kept_ids = 0;
   Index begin = 0;
   for (Index e = 0; e < graph.edges(); ++e) {
-    const Index end = graph.edge_begin[e + 1];
+    const Index end = graph.edge_vertices.begin[e + 1];
     bool whole = true;
     bool left_out = false;
     for (Index k = begin; k < end; ++k) {
@@ -381,15 +382,15 @@ void resolve_edges(Parser& parser, const VertexLookup& lookup) {
       kept_ids += end - begin;
       graph.edge_type[kept_edges] = graph.edge_type[e];
       graph.edge_line[kept_edges] = graph.edge_line[e];
-      graph.edge_begin[++kept_edges] = kept_ids;
+      graph.edge_vertices.begin[++kept_edges] = kept_ids;
     }
     begin = end;
   }
   vertices.resize(kept_ids);
   graph.edge_type.resize(kept_edges);
   graph.edge_line.resize(kept_edges);
-  graph.edge_begin.resize(kept_edges + 1);
-  graph.edge_vertices = std::move(vertices);
+  graph.edge_vertices.begin.resize(kept_edges + 1);
+  graph.edge_vertices.items = std::move(vertices);
 }
 
 void resolve_fixes(Parser& parser, const VertexLookup& lookup) {
@@ -414,7 +415,6 @@ Graph parse_g2o(text::Text text, std::string file, graph::Tags tags, const Compl
   parser.graph.file = std::move(file);
   parser.graph.tags = std::move(tags);
   reserve(parser);
-  parser.graph.edge_begin.push_back(0);
   parse_lines(parser);
   if (parser.graph.id.empty()) {
     imply_vertices(parser);

@@ -11,12 +11,8 @@ namespace sg::factor {
 
 template <graph::EdgeTag type>
 struct PointPrior : Registered<type> {
-  static constexpr int dim = Registered<type>::dim, constants = dim;
+  static constexpr int dim = Registered<type>::dim;
 
-  static bool prepare(const double* z, const double* const*, double* c) {
-    std::copy_n(z, dim, c);
-    return true;
-  }
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     for (int k = 0; k < dim; ++k) e[k] = x[0][k] - c[k];
     if (J) Eigen::Map<Eigen::Matrix<double, dim, dim>>(J[0]).setIdentity();
@@ -29,12 +25,8 @@ struct PointPrior : Registered<type> {
 
 template <graph::EdgeTag type>
 struct PointPair : Registered<type> {
-  static constexpr int dim = Registered<type>::dim, constants = dim;
+  static constexpr int dim = Registered<type>::dim;
 
-  static bool prepare(const double* z, const double* const*, double* c) {
-    std::copy_n(z, dim, c);
-    return true;
-  }
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     for (int k = 0; k < dim; ++k) e[k] = x[1][k] - x[0][k] - c[k];
     if (!J) return;

@@ -14,6 +14,13 @@
 
 namespace sg::factor {
 
+// The end that a motion z between two poses gives by the other one.
+inline bool place_end(const double* const* x, const SE2& z, int end, double* out) {
+  set_se2(end == 1 ? compose(geometry::se2(x[0]), z) : compose(geometry::se2(x[1]), inverse(z)),
+          out);
+  return true;
+}
+
 template <>
 struct EdgeModel<graph::EdgeTag::se2> : Registered<graph::EdgeTag::se2> {
   static constexpr int constants = 5;
@@ -43,10 +50,7 @@ struct EdgeModel<graph::EdgeTag::se2> : Registered<graph::EdgeTag::se2> {
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE2 z = geometry::se2(c);
-    set_se2(end == 1 ? compose(geometry::se2(x[0]), z) : compose(geometry::se2(x[1]), inverse(z)),
-            out);
-    return true;
+    return place_end(x, geometry::se2(c), end, out);
   }
 };
 
@@ -79,24 +83,13 @@ struct EdgeModel<graph::EdgeTag::se2_offset> : Registered<graph::EdgeTag::se2_of
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE2 motion =
-        compose(compose(geometry::se2(c + 3), geometry::se2(c)), inverse(geometry::se2(c + 6)));
-    set_se2(end == 1 ? compose(geometry::se2(x[0]), motion)
-                     : compose(geometry::se2(x[1]), inverse(motion)),
-            out);
-    return true;
+    const SE2 from = compose(geometry::se2(c + 3), geometry::se2(c));
+    return place_end(x, compose(from, inverse(geometry::se2(c + 6))), end, out);
   }
 };
 
 template <>
 struct EdgeModel<graph::EdgeTag::prior_se2> : Registered<graph::EdgeTag::prior_se2> {
-  static constexpr int constants = 3;
-
-  static bool prepare(const double* z, const double* const*, double* c) {
-    set_se2(geometry::se2(z), c);
-    return true;
-  }
-
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     set_se2(between(geometry::se2(c), geometry::se2(x[0])), e);
     if (!J) return;
@@ -112,14 +105,6 @@ struct EdgeModel<graph::EdgeTag::prior_se2> : Registered<graph::EdgeTag::prior_s
 
 template <>
 struct EdgeModel<graph::EdgeTag::prior_se2_xy> : Registered<graph::EdgeTag::prior_se2_xy> {
-  static constexpr int constants = 2;
-
-  static bool prepare(const double* z, const double* const*, double* c) {
-    c[0] = z[0];
-    c[1] = z[1];
-    return true;
-  }
-
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     e[0] = x[0][0] - c[0];
     e[1] = x[0][1] - c[1];

@@ -12,14 +12,6 @@ namespace sg::factor {
 
 template <>
 struct EdgeModel<graph::EdgeTag::se2_xy> : Registered<graph::EdgeTag::se2_xy> {
-  static constexpr int constants = 2;
-
-  static bool prepare(const double* z, const double* const*, double* c) {
-    c[0] = z[0];
-    c[1] = z[1];
-    return true;
-  }
-
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     const double cs = std::cos(x[0][2]), sn = std::sin(x[0][2]);
     const double dx = x[1][0] - x[0][0], dy = x[1][1] - x[0][1];
@@ -40,13 +32,6 @@ struct EdgeModel<graph::EdgeTag::se2_xy> : Registered<graph::EdgeTag::se2_xy> {
 
 template <>
 struct EdgeModel<graph::EdgeTag::bearing_se2_xy> : Registered<graph::EdgeTag::bearing_se2_xy> {
-  static constexpr int constants = 1;
-
-  static bool prepare(const double* z, const double* const*, double* c) {
-    c[0] = z[0];
-    return true;
-  }
-
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     const double dx = x[1][0] - x[0][0], dy = x[1][1] - x[0][1];
     e[0] = geometry::wrap(c[0] + x[0][2] - std::atan2(dy, dx));

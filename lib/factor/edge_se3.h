@@ -38,6 +38,13 @@ inline Eigen::Quaterniond rotation_product(std::initializer_list<Eigen::Quaterni
   return Eigen::Quaterniond(R).normalized();
 }
 
+// The end that a motion z between two poses gives by the other one.
+inline bool place_end(const double* const* x, const SE3& z, int end, double* out) {
+  set_se3(end == 1 ? compose(geometry::se3(x[0]), z) : compose(geometry::se3(x[1]), inverse(z)),
+          out);
+  return true;
+}
+
 inline void set_error(const SE3& d, double* e) {
   Eigen::Map<Vector6d>{e} = compact(d);
 }
@@ -82,10 +89,7 @@ struct EdgeModel<graph::EdgeTag::se3> : Registered<graph::EdgeTag::se3> {
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE3 z = geometry::se3(c);
-    set_se3(end == 1 ? compose(geometry::se3(x[0]), z) : compose(geometry::se3(x[1]), inverse(z)),
-            out);
-    return true;
+    return place_end(x, geometry::se3(c), end, out);
   }
 };
 
@@ -115,12 +119,8 @@ struct EdgeModel<graph::EdgeTag::se3_offset> : Registered<graph::EdgeTag::se3_of
   }
 
   static bool place(const double* const* x, const double* c, int end, double* out) {
-    const SE3 motion =
-        compose(compose(geometry::se3(c + 7), geometry::se3(c)), inverse(geometry::se3(c + 14)));
-    set_se3(end == 1 ? compose(geometry::se3(x[0]), motion)
-                     : compose(geometry::se3(x[1]), inverse(motion)),
-            out);
-    return true;
+    const SE3 from = compose(geometry::se3(c + 7), geometry::se3(c));
+    return place_end(x, compose(from, inverse(geometry::se3(c + 14))), end, out);
   }
 };
 
@@ -151,13 +151,6 @@ struct EdgeModel<graph::EdgeTag::se3_prior> : Registered<graph::EdgeTag::se3_pri
 
 template <>
 struct EdgeModel<graph::EdgeTag::se3_xyz_prior> : Registered<graph::EdgeTag::se3_xyz_prior> {
-  static constexpr int constants = 3;
-
-  static bool prepare(const double* z, const double* const*, double* c) {
-    std::copy_n(z, 3, c);
-    return true;
-  }
-
   static void evaluate(const double* const* x, const double* c, double* e, double* const* J) {
     for (int k = 0; k < 3; ++k) e[k] = x[0][k] - c[k];
     if (!J) return;

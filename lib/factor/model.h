@@ -13,9 +13,10 @@
 //     extra        numbers behind the information matrix
 //     ends         the spaces of its vertices, in file order
 //     params       its parameters, in file order
-// and adds
+// unless it says otherwise
 //     constants    numbers that a factor keeps in memory
 //     prepare(z, params, c)     measurement, extra numbers and parameters to the constants c
+// and adds
 //     evaluate(x, c, e, J)      error and, unless J is null, the Jacobian J[k] (dim x space_dim, by
 //                               column) of vertex k
 //     place(x, c, end, out)     optional: the estimate of vertex `end` that makes the error 0, from
@@ -24,6 +25,7 @@
 //                               its coordinates
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string_view>
@@ -56,6 +58,12 @@ struct Registered {
     std::copy_n(edge.params.item.begin(), tags.size(), tags.begin());
     return tags;
   }();
+  // Most keep the measurement as it stands.
+  static constexpr int constants = measurement;
+  static bool prepare(const double* z, const double* const*, double* c) {
+    std::copy_n(z, measurement, c);
+    return true;
+  }
 };
 
 // Linear constraints on a landmark p: row' [p; -1] = 0 with |row of p| = 1, at most two from an

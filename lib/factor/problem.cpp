@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 
 #include "lib/factor/gauge.h"
@@ -179,9 +180,7 @@ bool is_free(const Problem& problem) {
 
 void lay_out_variables(Problem& problem) {
   problem.variables = graph::graph_pattern(*problem.graph);
-  problem.step_at.push_back(0);
-  for (int dim : problem.variables.pattern.dim)
-    problem.step_at.push_back(problem.step_at.back() + dim);
+  problem.step_at = starts(problem.variables.pattern.dim);
   if (is_free(problem)) hold_first_pose(problem);
 }
 
@@ -217,6 +216,12 @@ Values file_values(const Problem& problem) {
     }
   }
   return values;
+}
+
+std::vector<Index> starts(std::span<const int> dim) {
+  std::vector<Index> at(dim.size() + 1, 0);
+  std::partial_sum(dim.begin(), dim.end(), at.begin() + 1);
+  return at;
 }
 
 void retract(const Problem& problem, const std::vector<double>& step, Values& values) {

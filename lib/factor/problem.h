@@ -79,6 +79,9 @@ inline Ends ends_of(const Problem& problem, const Values& values, Index e) {
   return x;
 }
 
+// Where each variable's part of a step starts, and the end.
+std::vector<Index> starts(std::span<const int> dim);
+
 // values (+) step, variable by variable.
 void retract(const Problem& problem, const std::vector<double>& step, Values& values);
 

@@ -24,6 +24,11 @@ inline SE3 se3(const double* x) {
   return {Eigen::Quaterniond(x[6], x[3], x[4], x[5]), vector3(x)};
 }
 
+// The same motion in the plane z = 0 of space.
+inline SE3 in_space(const SE2& a) {
+  return {exp_so3({0, 0, a.theta}), {a.x, a.y, 0}};
+}
+
 inline std::array<double, 3> numbers_of(const SE2& a) {
   return {a.x, a.y, a.theta};
 }

@@ -5,24 +5,23 @@
 
 namespace sg::graph {
 
-Components components(const Graph& graph) {
-  return components(graph, std::vector<bool>(graph.edges(), false));
+Components components(const Graph& graph, const std::vector<bool>& edge_removed) {
+  return components(graph.edge_vertices, graph.vertices(), edge_removed);
 }
 
-Components components(const Graph& graph, const std::vector<bool>& edge_removed) {
-  assert(edge_removed.size() == graph.edge_type.size());
-  const Index n = graph.vertices();
-  std::vector<Index> rank(n);
-  std::vector<Index> parent(n);
+Components components(const Lists<>& lists, Index count, const std::vector<bool>& list_removed) {
+  assert(list_removed.empty() || std::ssize(list_removed) == lists.size());
+  std::vector<Index> rank(count);
+  std::vector<Index> parent(count);
   boost::disjoint_sets<Index*, Index*> sets(rank.data(), parent.data());
-  for (Index v = 0; v < n; ++v) sets.make_set(v);
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (edge_removed[e]) continue;
-    for (Index v : graph.edge(e)) sets.union_set(graph.edge(e).front(), v);
+  for (Index v = 0; v < count; ++v) sets.make_set(v);
+  for (Index k = 0; k < lists.size(); ++k) {
+    if (!list_removed.empty() && list_removed[k]) continue;
+    for (Index v : lists[k]) sets.union_set(lists[k].front(), v);
   }
   Components result;
-  std::vector<Index> number(n, -1);
-  for (Index v = 0; v < n; ++v) {
+  std::vector<Index> number(count, -1);
+  for (Index v = 0; v < count; ++v) {
     Index& component = number[sets.find_set(v)];
     if (component < 0) component = result.count++;
     result.of.push_back(component);

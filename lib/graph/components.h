@@ -11,9 +11,11 @@ struct Components {
   Index count = 0;
   std::vector<Index> of;  // n: the component of every vertex; numbered by their first vertex
 };
-Components components(const Graph& graph);
-// The same without the edges that are marked.
-Components components(const Graph& graph, const std::vector<bool>& edge_removed);
+// Without the edges that are marked, if any are.
+Components components(const Graph& graph, const std::vector<bool>& edge_removed = {});
+// The same of items 0 .. count - 1 that every list joins.
+Components components(const Lists<>& lists, Index count,
+                      const std::vector<bool>& list_removed = {});
 
 // Number of vertices of every component.
 std::vector<Index> sizes(const Components& components);

@@ -126,7 +126,7 @@ std::vector<Index> file_order(const Graph& graph) {
     return order;
   }
   std::vector<bool> seen(graph.vertices(), false);
-  for (Index v : graph.edge_vertices) {
+  for (Index v : graph.edge_vertices.items) {
     if (!seen[v]) order.push_back(v);
     seen[v] = true;
   }

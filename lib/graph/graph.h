@@ -8,26 +8,16 @@
 // Vertices are numbered 0..n-1 by ascending id, edges 0..m-1 in file order.
 #pragma once
 
-#include <cassert>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lib/graph/lists.h"
 #include "lib/graph/tags.h"
 #include "lib/text/error.h"
 #include "lib/text/text.h"
-
-// What every folder says without its namespace.
-namespace sg {
-
-using Index = std::int32_t;   // of vertices, variables, edges, factors
-using Id = std::int64_t;      // as the file writes it: 0 .. 2^63-1
-using Offset = std::int64_t;  // of the first byte of a line's content in Graph::text
-
-}  // namespace sg
 
 namespace sg::graph {
 
@@ -51,8 +41,7 @@ struct Graph {
 
   std::vector<TypeIndex> edge_type;  // m, into tags.edges
   std::vector<Offset> edge_line;     // m, ascending
-  std::vector<Index> edge_begin;     // m + 1, into edge_vertices
-  std::vector<Index> edge_vertices;  // vertices of every edge, in file order
+  Lists<> edge_vertices;             // m, in file order
 
   std::vector<Param> params;        // in file order
   std::vector<Offset> fix_lines;    // in file order
@@ -63,11 +52,7 @@ struct Graph {
 
   Index vertices() const { return static_cast<Index>(id.size()); }
   Index edges() const { return static_cast<Index>(edge_type.size()); }
-  std::span<const Index> edge(Index e) const {
-    assert(0 <= e && e < edges());
-    return {edge_vertices.data() + edge_begin[e],
-            static_cast<std::size_t>(edge_begin[e + 1] - edge_begin[e])};
-  }
+  std::span<const Index> edge(Index e) const { return edge_vertices[e]; }
   const VertexType& type_of_vertex(Index v) const { return tags.vertices[vertex_type[v]]; }
   const EdgeType& type_of_edge(Index e) const { return tags.edges[edge_type[e]]; }
   // Of a taught type: none of the enumerators.

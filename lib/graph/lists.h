@@ -1,15 +1,23 @@
 // Lists of a list, laid flat: all items one after the other, and where each list begins. Sparse
-// matrices call it compressed storage; here it holds the rows of a pattern, the neighbours in its
-// graph, the cliques of a tree and all their like.
+// matrices call it compressed storage; here it holds the vertices of a graph's edges, the rows of a
+// pattern, the neighbours in its graph, the cliques of a tree and all their like.
 #pragma once
 
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <vector>
 
-#include "lib/graph/graph.h"
+// What every folder says without its namespace.
+namespace sg {
+
+using Index = std::int32_t;   // of vertices, variables, edges, factors
+using Id = std::int64_t;      // as the file writes it: 0 .. 2^63-1
+using Offset = std::int64_t;  // of the first byte of a line's content in Graph::text
+
+}  // namespace sg
 
 namespace sg::graph {
 

@@ -17,7 +17,7 @@ GraphPattern pattern_of(const Graph& graph, const auto& has_vertex, const auto& 
   }
   Lists<>& rows = result.pattern.rows;
   rows.begin.reserve(graph.edges() + 1);
-  rows.items.reserve(graph.edge_vertices.size());
+  rows.items.reserve(graph.edge_vertices.items.size());
   for (Index e = 0; e < graph.edges(); ++e) {
     if (!has_edge(e)) continue;
     for (Index v : graph.edge(e)) {

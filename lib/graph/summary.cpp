@@ -41,7 +41,7 @@ void count_edges(const Graph& graph, Summary& summary) {
 
 void count_degrees(const Graph& graph, Summary& summary) {
   std::vector<Index> degree(graph.vertices(), 0);
-  for (Index v : graph.edge_vertices) ++degree[v];
+  for (Index v : graph.edge_vertices.items) ++degree[v];
   summary.isolated = static_cast<Index>(std::count(degree.begin(), degree.end(), 0));
   if (!degree.empty()) summary.max_degree = *std::max_element(degree.begin(), degree.end());
 }

@@ -54,6 +54,9 @@ struct Ordering {
   graph::Order (*compute)(const graph::Pattern&, const OrderOptions&);
 };
 
+// What is meant where nobody names one.
+constexpr std::string_view default_ordering = "colamd";
+
 // All orderings, in the order in which --help lists them.
 std::span<const Ordering> orderings();
 // Throws a usage Error that lists the names.

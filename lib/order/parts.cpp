@@ -1,27 +1,13 @@
 #include "lib/order/parts.h"
 
-#include <algorithm>
+#include "lib/graph/components.h"
 
 namespace sg::order {
 namespace {
 
-// The variables that can be reached from `first`, ascending; marks them in `seen`.
-std::vector<Index> reachable(const graph::Adjacency& graph, Index first, std::vector<bool>& seen) {
-  std::vector<Index> found{first};
-  seen[first] = true;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    for (Index i : graph[found[k]]) {
-      if (!seen[i]) found.push_back(i);
-      seen[i] = true;
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 // `number` is scratch space of n.
 Part part_of(const graph::Pattern& pattern, const graph::Adjacency& graph,
-             const std::vector<Index>& variables, std::vector<Index>& number) {
+             std::span<const Index> variables, std::vector<Index>& number) {
   Part part;
   for (std::size_t k = 0; k < variables.size(); ++k) {
     number[variables[k]] = static_cast<Index>(k);
@@ -40,15 +26,15 @@ graph::Order order_by_parts(const graph::Pattern& pattern,
                             const std::function<graph::Order(Part&)>& order_part) {
   const Index n = pattern.variables();
   const graph::Adjacency graph = graph::adjacency(pattern);
-  std::vector<bool> seen(n, false);
+  const graph::Components parts = graph::components(pattern.rows, n);
   std::vector<Index> number(n);
   graph::Order order;
   order.reserve(n);
-  for (Index j = 0; j < n; ++j) {
-    if (seen[j]) continue;
-    const std::vector<Index> variables = reachable(graph, j, seen);
+  const graph::Lists<> members = graph::grouped(parts.of, parts.count);
+  for (Index c = 0; c < parts.count; ++c) {
+    const auto variables = members[c];
     if (variables.size() == 1) {
-      order.push_back(j);
+      order.push_back(variables.front());
       continue;
     }
     Part part = part_of(pattern, graph, variables, number);

@@ -15,7 +15,7 @@ SE3 pose_of(const Graph& graph, Index v, const std::vector<double>& n) {
   const graph::Space space = graph.type_of_vertex(v).space;
   if (!std::ranges::all_of(n, [](double x) { return std::isfinite(x); }))
     throw graph::error_at(graph, graph.vertex_line[v], "a number is not finite");
-  if (space == graph::Space::se2) return {geometry::exp_so3({0, 0, n[2]}), {n[0], n[1], 0}};
+  if (space == graph::Space::se2) return geometry::in_space(geometry::se2(n.data()));
   if (graph::has_quaternion(space)) return normalized(geometry::se3(n.data()));
   throw graph::error_at(graph, graph.vertex_line[v],
                         graph.type_of_vertex(v).tag + " is no pose that a trajectory can have");

@@ -37,8 +37,7 @@ void plan_runs(const graph::Pattern& pattern, Elimination& e) {
 
 void plan_scalars(const graph::Pattern& pattern, Elimination& e) {
   e.dim = pattern.dim;
-  e.step_at.assign(1, 0);
-  for (int dim : pattern.dim) e.step_at.push_back(e.step_at.back() + dim);
+  e.step_at = factor::starts(pattern.dim);
   e.floor_at.resize(pattern.variables());
   Index scalar = 0;
   for (Index j : e.tree.frontals.items) {

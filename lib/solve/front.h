@@ -39,7 +39,6 @@ struct Front {
   int f;  // frontal scalars
   int n;  // all rows: frontal, separator, right-hand side
 
-  int s() const { return n - 1 - f; }
   int ld_l() const { return round_up(n); }
   int ld_u() const { return round_up(n - f); }
   std::int64_t size_l() const { return std::int64_t{f} * ld_l(); }

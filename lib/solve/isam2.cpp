@@ -4,9 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "lib/solve/isam2_relinearize.h"
-#include "lib/solve/isam2_solve.h"
-#include "lib/solve/isam2_top.h"
+#include "lib/solve/isam2_steps.h"
 
 namespace sg::solve {
 

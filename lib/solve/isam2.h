@@ -25,22 +25,22 @@
 // An update (algorithm 8 of the paper) gets new variables Theta' with their starts, and factors F':
 //
 //   1  F := F + F';  Theta := Theta + Theta'.
-//   2  Fluid relinearization (algorithm 5; isam2_relinearize.h). Where a number of Delta_j is beta or
+//   2  Fluid relinearization (algorithm 5; isam2_relinearize.cpp). Where a number of Delta_j is beta or
 //      more, Theta_j := Theta_j (+) Delta_j, Delta_j := 0, and j's factors are linearized again.
 //      Marked are the cliques that hold these factors, or j as a frontal variable, with all
 //      their ancestors; and those of the variables of F', with theirs.
-//   3  The top is redone (algorithm 6, which is 4 with relinearized factors; isam2_top.h):
+//   3  The top is redone (algorithm 6, which is 4 with relinearized factors; isam2_top.cpp):
 //      a  the marked cliques are taken out: they are all of the tree above some subtrees, the
 //         orphans. Their variables and the new ones make a small factor graph of the factors that
 //         the cliques held, F', and one factor for every orphan: its update.
 //      b  It is ordered anew, the variables of F' last, so that the next update finds them at the
 //         root (constrained COLAMD in the paper; here any ordering of lib/order that can do it).
-//      c  It is eliminated to new cliques (algorithms 2 and 3; isam2_eliminate.h), children before
+//      c  It is eliminated to new cliques (algorithms 2 and 3; isam2_eliminate.cpp), children before
 //         parents: lib/elim's Bayes tree says which variables share one, and a front is summed up
 //         from its factors' Gram matrices [A b]'[A b] and its children's updates, as in batch.
 //      d  The orphans are put below the cliques that assembled their updates.
 //      If more than a fixed share of all variables would be redone, all are: a new ordering pays.
-//   4  Delta is solved for from the roots down (algorithm 7; isam2_solve.h): every clique that was
+//   4  Delta is solved for from the roots down (algorithm 7; isam2_solve.cpp): every clique that was
 //      made, or whose separator has a variable that changed by alpha or more since it was last
 //      passed down (the wildfire threshold); below others nothing is touched.
 //
@@ -68,7 +68,7 @@ struct Isam2Options {
   double relinearize_threshold = 0.1;  // beta: largest number of a step
   int relinearize_skip = 1;            // relinearize in every so-manieth update; 0: never
   double wildfire_threshold = 0.001;   // alpha: smallest change of a step that is passed down
-  std::string ordering = "colamd";     // of lib/order
+  std::string ordering{order::default_ordering};
 };
 
 struct Isam2 {

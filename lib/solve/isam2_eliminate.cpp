@@ -1,6 +1,5 @@
-#include "lib/solve/isam2_eliminate.h"
-
 #include "lib/solve/assembly.h"
+#include "lib/solve/isam2_steps.h"
 #include "lib/solve/pivots.h"
 
 namespace sg::solve {

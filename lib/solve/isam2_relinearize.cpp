@@ -1,8 +1,7 @@
-#include "lib/solve/isam2_relinearize.h"
-
 #include <algorithm>
 #include <iterator>
 
+#include "lib/solve/isam2_steps.h"
 #include "lib/solve/landmark_point.h"
 #include "lib/solve/pivots.h"
 

@@ -1,7 +1,7 @@
-#include "lib/solve/isam2_solve.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "lib/solve/isam2_steps.h"
 
 namespace sg::solve {
 namespace {

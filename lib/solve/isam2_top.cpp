@@ -1,10 +1,7 @@
-#include "lib/solve/isam2_top.h"
-
 #include <algorithm>
 
 #include "lib/solve/clique_tree.h"
-#include "lib/solve/isam2_eliminate.h"
-#include "lib/solve/isam2_relinearize.h"
+#include "lib/solve/isam2_steps.h"
 
 namespace sg::solve {
 namespace {

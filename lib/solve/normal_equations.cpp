@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 
 namespace sg::solve {
 namespace {
@@ -76,18 +75,12 @@ void add_row(const factor::LinearSystem& system, Index r, NormalEquations& norma
 
 }  // namespace
 
-std::vector<Index> starts(const std::vector<int>& dim) {
-  std::vector<Index> at(dim.size() + 1, 0);
-  std::partial_sum(dim.begin(), dim.end(), at.begin() + 1);
-  return at;
-}
-
 NormalEquations normal_structure(const factor::LinearSystem& system, const graph::Order& order) {
   const graph::Pattern& pattern = *system.pattern;
   assert(graph::is_permutation(order, pattern.variables()) && factor::is_laid_out(system));
   NormalEquations normal;
   normal.dim = pattern.dim;
-  normal.step_at = starts(pattern.dim);
+  normal.step_at = factor::starts(pattern.dim);
   normal.scalar_at.resize(pattern.variables());
   Index scalars = 0;
   for (Index j : order) {
@@ -143,7 +136,7 @@ void form_normal_equations(const factor::LinearSystem& system, std::span<const d
 void diagonal_and_gradient(const factor::LinearSystem& system, std::vector<double>& diagonal,
                            std::vector<double>& gradient) {
   const graph::Pattern& pattern = *system.pattern;
-  const auto step_at = starts(pattern.dim);
+  const auto step_at = factor::starts(pattern.dim);
   diagonal.assign(step_at.back(), 0.0);
   gradient.assign(step_at.back(), 0.0);
   for (Index r = 0; r < pattern.rows.size(); ++r) {

@@ -24,9 +24,6 @@ struct NormalEquations {
   int scalars() const { return static_cast<int>(gradient.size()); }
 };
 
-// Where each variable's part of a step starts, and the end.
-std::vector<Index> starts(const std::vector<int>& dim);
-
 // The structure, for an elimination order.
 NormalEquations normal_structure(const factor::LinearSystem& system, const graph::Order& order);
 

@@ -28,7 +28,7 @@ void append_block(const factor::LinearSystem& system, Index r, const std::vector
 
 ScaledQr scaled_qr(const factor::LinearSystem& system, std::span<const double> damping) {
   assert(factor::is_laid_out(system));
-  const std::vector<Index> step_at = starts(system.pattern->dim);
+  const std::vector<Index> step_at = factor::starts(system.pattern->dim);
   ScaledQr result;
   std::vector<double> gradient;
   diagonal_and_gradient(system, result.length, gradient);

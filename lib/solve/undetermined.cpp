@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "lib/solve/normal_equations.h"
+#include "lib/graph/components.h"
 #include "lib/solve/scaled_qr.h"
 
 namespace sg::solve {
@@ -16,24 +16,6 @@ constexpr std::size_t most_ranges = 20;  // in a message
 constexpr int draws = 3;             // of vectors of the null space: none hides a variable thrice
 constexpr double noticeable = 1e-6;  // share of the mean movement in its part
 constexpr double rounding = 1e-12;   // |A z| beside |z|, all columns of unit length
-
-// The parts of a pattern: no row has variables of two of them. By variable, its part's first.
-std::vector<Index> parts(const graph::Pattern& pattern) {
-  std::vector<Index> part(pattern.variables());
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&](Index j) {
-    while (part[j] != j) j = part[j] = part[part[j]];
-    return j;
-  };
-  for (Index r = 0; r < pattern.rows.size(); ++r) {
-    for (Index j : pattern.rows[r]) {
-      const auto [first, second] = std::minmax({root(j), root(pattern.rows[r].front())});
-      part[second] = first;
-    }
-  }
-  for (Index j = 0; j < pattern.variables(); ++j) part[j] = root(j);
-  return part;
-}
 
 // Sums by part of what `of` gives for every item, whose part is `part_of`.
 std::vector<double> sums(std::size_t parts, Index items, const auto& part_of, const auto& of) {
@@ -107,7 +89,8 @@ NullSpace null_space(const factor::LinearSystem& system, std::span<const double>
   NullSpace result;
   result.dimension = static_cast<Index>(factor.qr.dead);
   if (result.dimension == 0) return result;
-  const Search search{pattern, starts(pattern.dim), parts(pattern), factor.length};
+  const Search search{pattern, factor::starts(pattern.dim),
+                      graph::components(pattern.rows, pattern.variables()).of, factor.length};
   std::vector<double> along(scaling.begin(), scaling.end());
   for (std::size_t k = 0; k < along.size(); ++k) along[k] *= search.length[k];
   result.scale = !along.empty();

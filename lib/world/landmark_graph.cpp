@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lib/geometry/numbers.h"
 #include "lib/geometry/triangle.h"
 #include "lib/text/error.h"
 
@@ -21,11 +22,6 @@ constexpr double degree = std::numbers::pi / 180;
 // The camera in the robot's frame: z ahead, x to the right.
 const Quaterniond optical(0.5, -0.5, 0.5, -0.5);  // w x y z
 
-SE3 in_space(const SE2& pose) {
-  return {Quaterniond(std::cos(pose.theta / 2), 0, 0, std::sin(pose.theta / 2)),
-          Vector3d(pose.x, pose.y, 0)};
-}
-
 double principal_point(const Optics& optics) {
   return rounded(optics.focal * std::tan(optics.view / 2 * degree));
 }
@@ -39,7 +35,7 @@ SE2 true_pose<SE2>(const LandmarkGraph& graph, Index k) {
 }
 template <>
 SE3 true_pose<SE3>(const LandmarkGraph& graph, Index k) {
-  const SE3 robot = in_space(graph.poses[k]);
+  const SE3 robot = geometry::in_space(graph.poses[k]);
   return graph.sensor == Sensor::mono ? compose(robot, {optical, Vector3d::Zero()}) : robot;
 }
 
@@ -94,10 +90,9 @@ void observation_line(const LandmarkGraph& graph, Index pose, Index landmark,
                       const Observation& observation, Out& out) {
   const Id point = Id{landmark} + static_cast<Id>(graph.poses.size());
   const bool point_first = graph.sensor == Sensor::mono;
-  tag(out, graph::name(observation_type(graph.sensor)));
-  id(out, point_first ? point : pose);
-  id(out, point_first ? pose : point);
-  if (!planar(graph.sensor)) id(out, 0);
+  begin_line(out, graph::name(observation_type(graph.sensor)),
+             {point_first ? point : pose, point_first ? pose : point});
+  if (!planar(graph.sensor)) number(out, 0);  // the parameter's id
   std::array<double, 3> information{};
   for (int i = 0; i < observation.size; ++i) {
     number(out, observation.value[i]);
@@ -113,19 +108,16 @@ void parameter_line(const LandmarkGraph& graph, Out& out) {
   const double f = optics.focal, c = principal_point(optics);
   switch (graph.sensor) {
     case Sensor::mono:
-      tag(out, graph::name(graph::ParamTag::pinhole));
-      id(out, 0);
+      begin_line(out, graph::name(graph::ParamTag::pinhole), {0});
       for (double x : {f, c, c, optics.baseline}) number(out, x);
       break;
     case Sensor::disparity:
-      tag(out, graph::name(graph::ParamTag::camera));
-      id(out, 0);
+      begin_line(out, graph::name(graph::ParamTag::camera), {0});
       numbers(out, SE3{optical, Vector3d::Zero()});
       for (double x : {f, f, c, c}) number(out, x);
       break;
     default:
-      tag(out, graph::name(graph::ParamTag::se3_offset));
-      id(out, 0);
+      begin_line(out, graph::name(graph::ParamTag::se3_offset), {0});
       numbers(out, SE3{});
   }
   out.buffer += ' ';  // g2o takes a camera's line that ends in a digit for a broken one
@@ -137,8 +129,7 @@ void pose_line(const LandmarkGraph&, Index k, const SE2& pose, Out& out) {
 }
 void pose_line(const LandmarkGraph& graph, Index k, const SE3& pose, Out& out) {
   if (graph.sensor != Sensor::mono) return vertex_line(out, k, pose);
-  tag(out, graph::name(graph::VertexTag::expmap));
-  id(out, k);
+  begin_line(out, graph::name(graph::VertexTag::expmap), {k});
   numbers(out, pose);
   end_line(out);
 }
@@ -158,9 +149,7 @@ void odometry_line(const LandmarkGraph& graph, Index k, const SE2& z, Out& out) 
 }
 void odometry_line(const LandmarkGraph& graph, Index k, const SE3& z, Out& out) {
   if (graph.sensor != Sensor::mono) return edge_line(out, k - 1, k, z, graph.odometry_noise);
-  tag(out, graph::name(graph::EdgeTag::expmap));
-  id(out, k - 1);
-  id(out, k);
+  begin_line(out, graph::name(graph::EdgeTag::expmap), {k - 1, k});
   numbers(out, z);
   const Matrix6d information = world_information(graph.odometry_noise, true_pose<SE3>(graph, k));
   const double nothing = 1e-12 * information.diagonal().maxCoeff();  // rounding, not information
@@ -229,8 +218,9 @@ void write_vertices(const LandmarkGraph& graph, const Odometry<Pose>& motions, O
                         geometry::act(geometry::inverse(true_pose<Pose>(graph, middle[l])), point));
       for (double& x : point) x += normal(random, graph.guess_noise);
     }
-    tag(out, graph::name(planar(graph.sensor) ? graph::VertexTag::xy : graph::VertexTag::trackxyz));
-    id(out, Id{n} + l);
+    begin_line(
+        out, graph::name(planar(graph.sensor) ? graph::VertexTag::xy : graph::VertexTag::trackxyz),
+        {Id{n} + l});
     for (const double x : point) number(out, x);
     end_line(out);
   }

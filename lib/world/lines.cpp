@@ -72,23 +72,19 @@ void diagonal_information(Out& out, const double* diagonal, int size) {
 }
 
 void vertex_line(Out& out, Id vertex, const SE2& pose) {
-  tag(out, graph::name(graph::VertexTag::se2));
-  id(out, vertex);
+  begin_line(out, graph::name(graph::VertexTag::se2), {vertex});
   numbers(out, pose);
   end_line(out);
 }
 
 void vertex_line(Out& out, Id vertex, const SE3& pose) {
-  tag(out, graph::name(graph::VertexTag::se3));
-  id(out, vertex);
+  begin_line(out, graph::name(graph::VertexTag::se3), {vertex});
   numbers(out, pose);
   end_line(out);
 }
 
 void edge_line(Out& out, Id a, Id b, const SE2& z, const PoseNoise& noise) {
-  tag(out, graph::name(graph::EdgeTag::se2));
-  id(out, a);
-  id(out, b);
+  begin_line(out, graph::name(graph::EdgeTag::se2), {a, b});
   numbers(out, z);
   const double xy = information(noise.translation), theta = information(noise.rotation);
   diagonal_information(out, std::array{xy, xy, theta}.data(), 3);
@@ -96,9 +92,7 @@ void edge_line(Out& out, Id a, Id b, const SE2& z, const PoseNoise& noise) {
 }
 
 void edge_line(Out& out, Id a, Id b, const SE3& z, const PoseNoise& noise) {
-  tag(out, graph::name(graph::EdgeTag::se3));
-  id(out, a);
-  id(out, b);
+  begin_line(out, graph::name(graph::EdgeTag::se3), {a, b});
   numbers(out, z);
   const double xyz = information(noise.translation), q = 4 * information(noise.rotation);
   diagonal_information(out, std::array{xyz, xyz, xyz, q, q, q}.data(), 6);

@@ -28,12 +28,9 @@ double rounded(double number) {
   return static_cast<double>(std::llround(number * grid)) / grid;
 }
 
-void tag(Out& out, std::string_view tag) {
+void begin_line(Out& out, std::string_view tag, std::initializer_list<Id> ids) {
   out.buffer += tag;
-}
-
-void id(Out& out, Id id) {
-  text::append_number(out.buffer, id);
+  for (const Id id : ids) text::append_number(out.buffer, id);
 }
 
 void number(Out& out, double number) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -22,9 +23,8 @@ struct Out {
 
 double rounded(double number);
 
-// A line is its words in order: its tag, ids, numbers, then `end_line`.
-void tag(Out& out, std::string_view tag);
-void id(Out& out, Id id);
+// A line is its words in order: its tag and ids, numbers, then `end_line`.
+void begin_line(Out& out, std::string_view tag, std::initializer_list<Id> ids);
 void number(Out& out, double number);
 void significant(Out& out, double number);  // to 12 significant digits instead: for information
 void end_line(Out& out);

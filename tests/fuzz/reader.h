@@ -47,10 +47,11 @@ inline void require_consistent(const Graph& graph) {
   const auto m = static_cast<std::size_t>(graph.edges());
   require(graph.vertex_type.size() == n && graph.vertex_line.size() == n &&
           graph.fixed.size() == n);
-  require(graph.edge_line.size() == m && graph.edge_begin.size() == m + 1);
-  require(static_cast<std::size_t>(graph.edge_begin.back()) == graph.edge_vertices.size());
+  require(graph.edge_line.size() == m && graph.edge_vertices.begin.size() == m + 1);
+  require(static_cast<std::size_t>(graph.edge_vertices.begin.back()) ==
+          graph.edge_vertices.items.size());
   for (std::size_t v = 1; v < n; ++v) require(graph.id[v - 1] < graph.id[v]);
-  for (const Index v : graph.edge_vertices) require(v >= 0 && v < graph.vertices());
+  for (const Index v : graph.edge_vertices.items) require(v >= 0 && v < graph.vertices());
   for (Index v = 0; v < graph.vertices(); ++v) {
     require(graph::find_vertex(graph, graph.id[v]) == v);
     require((graph.vertex_line[v] == graph::implied) == graph.edges_only);

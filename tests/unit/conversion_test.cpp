@@ -142,7 +142,7 @@ void check_same(const Graph& a, const Graph& b) {
   REQUIRE(a.id == b.id);
   CHECK(a.vertex_type == b.vertex_type);
   CHECK(a.edge_type == b.edge_type);
-  CHECK(a.edge_vertices == b.edge_vertices);
+  CHECK(a.edge_vertices.items == b.edge_vertices.items);
   CHECK(ec_of(a) == ec_of(b));
   // At the same place: not every format holds estimates.
   const factor::Problem problem = factor::make_problem(a);

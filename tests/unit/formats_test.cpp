@@ -165,7 +165,7 @@ TEST_CASE("a defective line leaves nothing behind", "[formats]") {
   CHECK(defects == 5);
   CHECK(graph.vertices() == 1);
   CHECK(graph.edges() == 0);
-  CHECK(graph.edge_begin == std::vector<Index>{0});
+  CHECK(graph.edge_vertices.begin == std::vector<Index>{0});
   CHECK(graph.params.empty());
   CHECK_FALSE(graph.fixed[0]);
 }

@@ -154,9 +154,7 @@ TEST_CASE("SE(2) follows its matrices", "[geometry]") {
     check_group(a, b);
     const Eigen::Vector2d p = random_vector<2>(random);
     CHECK(act(a, p).homogeneous().isApprox(matrix(a) * p.homogeneous(), 1e-12));
-    const Vector3d v = random_vector<3>(random, trial % 2 ? 3 : 1e-5);
-    CHECK(matrix(geometry::exp(v)).isApprox(power_series(hat(v)), 1e-10));
-    CHECK(log(geometry::exp(v)).isApprox(v, 1e-10));
+    const Vector3d v = random_vector<3>(random);
     CHECK(hat(Vector3d(adjoint(a) * v)).isApprox(matrix(a) * hat(v) * matrix(a).inverse(), 1e-9));
   }
 }
@@ -172,6 +170,15 @@ TEST_CASE("SE(3) follows its matrices", "[geometry]") {
     CHECK(matrix(geometry::exp(v)).isApprox(power_series(hat(v)), 1e-10));
     CHECK(log(geometry::exp(v)).isApprox(v, 1e-10));
     CHECK(hat(Vector6d(adjoint(a) * v)).isApprox(matrix(a) * hat(v) * matrix(a).inverse(), 1e-9));
+  }
+}
+
+TEST_CASE("where power series take over, motions are as exact as elsewhere", "[geometry]") {
+  const Vector3d axis = Vector3d(1, 2, 2) / 3, far(300, -200, 100);
+  for (const double angle : {0.00999, 0.0101}) {
+    Vector6d v;
+    v << far, angle * axis;
+    CHECK((matrix(geometry::exp(v)) - power_series(hat(v))).norm() < 2e-13 * far.norm());
   }
 }
 

@@ -1,0 +1,38 @@
+// The steps of an update (isam2.h), each in a file of its name.
+#pragma once
+
+#include "lib/solve/isam2.h"
+
+namespace sg::solve {
+
+// Step 2, algorithm 5 of the paper (isam2_relinearize.cpp).
+
+// Linearizes row r at the linearization points of its variables: its Gram matrix, and the least
+// pivots that it calls for. A landmark seen along a ray is damped, and where it cannot be seen the
+// row says nothing of it (landmark_point.h). Throws check_row's Error.
+void linearize_factor(Isam2& isam, Index r);
+
+// Moves the linearization points of the variables that have gone too far, linearizes their rows
+// again, and marks the cliques in which these stand. Returns how many variables moved.
+Index relinearize(Isam2& isam);
+
+// Marks clique c (none for -1) and its ancestors, to be taken out.
+void mark_to_root(Isam2& isam, Index c);
+
+// Step 3, algorithm 6 (isam2_top.cpp). Takes the marked cliques out, and eliminates their variables
+// and the new ones again: rows that the cliques held, the new ones, and what the orphans pass up. The
+// new cliques are left in work.made, children before parents. Reports reeliminated and undetermined
+// variables.
+void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const Index> new_rows,
+              Isam2Report& report);
+
+// Step 3c, algorithm 2 for all frontal variables at once (isam2_eliminate.cpp). Sums clique c's front
+// up from its rows and its children's updates, and eliminates its frontal variables. Appends those of
+// them with a pivot that vanished to `undetermined`.
+void eliminate_clique(Isam2& isam, Index c, std::vector<Index>& undetermined);
+
+// Step 4, algorithm 7 (isam2_solve.cpp). Solves from the new roots down to where steps change by less
+// than the wildfire threshold, and brings the estimates up to date. False if one is not finite.
+bool solve_down(Isam2& isam);
+
+}  // namespace sg::solve
