@@ -8,35 +8,44 @@ setup() {
 }
 
 # interrupt CASE: of interrupt.py, beside this file.
-interrupt() { timeout 300 python3 "$BATS_TEST_DIRNAME/interrupt.py" "$1"; }
+interrupt() { python3 "$BATS_TEST_DIRNAME/interrupt.py" "$1"; }
 
-@test "an interruption ends a command that has nothing worth keeping, and leaves the output as it was" { interrupt nothing_to_keep; }
+@test "an interruption ends a command that has nothing worth keeping, and leaves the output as it was" {
+  interrupt nothing_to_keep
+}
 
 @test "best, sg-solve and sg-tgreedy finish with the best so far when interrupted" {
   sg-gen manhattan -n 60 >graph.g2o
   interrupt best_so_far
 }
 
-@test "a second interruption ends at once" { interrupt twice; }
+@test "a second interruption ends at once" {
+  interrupt twice
+}
 
 @test "an interruption loses no row that is finished" {
   sg-gen manhattan -n 400 >graph.g2o
   interrupt rows
 }
 
-@test "rows of a file are kept, too" { interrupt rows_in_file; }
+@test "rows of a file are kept, too" {
+  interrupt rows_in_file
+}
 
 @test "half a graph does not pass for a whole" {
   sg-gen manhattan -n 400 >graph.g2o
   interrupt half_a_graph
-  fails 1 "sg-ec: half.g2o:3: unknown tag 'INTERRUPTED' (--vertex, --edge and --params teach a new one)" \
-    sg-ec <(printf 'EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n\nINTERRUPTED\n')
+  printf 'EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n\nINTERRUPTED\n' >half.g2o
+  run -1 sg-ec half.g2o
+  [[ $output == "sg-ec: half.g2o:3: unknown tag 'INTERRUPTED' ("* ]]
 }
 
-@test "an input that shrinks is one line" { interrupt input_that_shrinks; }
+@test "an input that shrinks is one line" {
+  interrupt input_that_shrinks
+}
 
 @test "what takes over a second is shown on a terminal, not with -q, not in a pipe, and the line goes away" {
-  timeout 300 python3 "$BATS_TEST_DIRNAME/progress.py"
+  python3 "$BATS_TEST_DIRNAME/progress.py"
 }
 
 @test "-v tells what was read, each stage, and the peak memory, in aligned lines" {
@@ -84,7 +93,7 @@ short() {
   (ulimit -v $((megabytes * 1024)); exec "$@") >printed 2>said || code=$?
   case $code in
     0) [ ! -s said ] ;;
-    3) grep -qE "^${1%% *}: out of memory \([a-z ]+: [0-9]+ MB were in use\)$" said && [ "$(wc -l <said)" = 1 ] ;;
+    3) [ "$(grep -cE "^${1%% *}: out of memory \([a-z ]+: [0-9]+ MB were in use\)$" said) $(wc -l <said)" = "1 1" ] ;;
     127) grep -q 'error while loading shared libraries' said ;;  # not yet a command of ours
     *) false ;;
   esac || { echo "$megabytes MB, $*: status $code: $(cat said)" >&2; return 1; }
