@@ -24,6 +24,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 
@@ -163,6 +164,7 @@ Text read_text(const std::string& path) {
   try {
     return without_mark(unpacked(read_path(path), path), path);
   } catch (const std::ios_base::failure& error) {
+    if (errno == ENOMEM) throw std::bad_alloc();
     throw input_error(path, 0, errno ? std::strerror(errno) : error.what());
   }
 }
