@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <system_error>
+#include <string_view>
 
 #include "lib/text/words.h"
 
@@ -95,11 +95,10 @@ int guarded(const Command& command, const std::function<int()>& work) {
                : report(command, error);
   } catch (const std::bad_alloc&) {
     return report(command, out_of_memory());
-  } catch (const std::system_error& error) {  // threads that cannot be made
-    const bool memory = error.code() == std::errc::resource_unavailable_try_again;
-    return report(command, memory ? out_of_memory() : text::computation_error(error.what()));
   } catch (const std::exception& error) {
-    return report(command, text::computation_error(error.what()));
+    // TBB's words for a thread that has no room for its stack.
+    const bool memory = std::string_view(error.what()).starts_with("pthread_create has failed");
+    return report(command, memory ? out_of_memory() : text::computation_error(error.what()));
   }
 }
 
