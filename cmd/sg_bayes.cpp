@@ -89,7 +89,8 @@ void print_dot(NamedTree& named, cmd::Output& output) {
   output.write("}\n");
 }
 
-void show(const cmd::Command& /*command*/, const cmd::DrawingOptions& options) {
+void show(const cmd::Command& command, const cmd::DrawingOptions& options) {
+  cmd::check_drawing(command, options);
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);
   NamedTree named = named_tree(options, graph);

@@ -116,7 +116,8 @@ void print_dot(const graph::Pattern& pattern, const Names& id_of, const graph::O
   output.write("}\n");
 }
 
-void show(const cmd::Command& /*command*/, const cmd::DrawingOptions& options) {
+void show(const cmd::Command& command, const cmd::DrawingOptions& options) {
+  cmd::check_drawing(command, options);
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);
   const graph::GraphPattern variables = graph::graph_pattern(graph);

@@ -56,7 +56,7 @@ const std::vector<cmd::Column<Row>> facts{
     {"id_min", "The smallest id", [](Row& row) { return row.graph.id.front(); }},
     {"id_max", "The largest id", [](Row& row) { return row.graph.id.back(); }},
     {"estimates", "Whether the file has VERTEX lines",
-     [](Row& row) { return row.graph.edges_only ? "no" : "yes"; }},
+     [](Row& row) { return !row.graph.edges_only; }},
     {"order", "Method by which sg-order ordered the file, if it did",
      [](Row& row) -> cmd::Cell {
        if (row.graph.order_method.empty()) return {};

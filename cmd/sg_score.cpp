@@ -109,7 +109,9 @@ void check_columns(const Options& options) {
   }
 }
 
-void run(const cmd::Command& /*command*/, const Options& options) {
+void run(const cmd::Command& command, const Options& options) {
+  cmd::check_form(command.app);
+  if (options.reference.empty()) cmd::refuse(command.app, {"--align"}, "without --reference");
   cmd::check(options.method);
   check_columns(options);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},

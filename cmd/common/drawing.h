@@ -28,4 +28,9 @@ void add_drawing(Command& command, DrawingOptions& options, const std::string& d
   add_table(command, options.table, columns);
 }
 
+inline void check_drawing(const Command& command, const DrawingOptions& options) {
+  check_form(command.app);
+  if (options.dot) refuse_table(command.app, "with --dot, which draws");
+}
+
 }  // namespace sg::cmd

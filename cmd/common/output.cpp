@@ -128,7 +128,12 @@ void Output::write(std::string_view bytes) {
   }
 }
 
+bool Output::terminal() const {
+  return path_.empty() && ::isatty(descriptor_) != 0;
+}
+
 void Output::commit() {
+  if (before_commit) before_commit();
   flush(buffer_);
   buffer_.clear();
   if (path_.empty()) return;

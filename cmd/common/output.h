@@ -1,6 +1,7 @@
 // Where a command writes: standard output, or a file that appears whole or not at all.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,9 @@ class Output final : public formats::Sink {
 
   void write(std::string_view bytes) override;
   void commit();
+
+  bool terminal() const;                // whether it goes to one
+  std::function<void()> before_commit;  // passes on what is held back (table.h)
 
  private:
   void flush(std::string_view bytes);
