@@ -2,50 +2,93 @@
 #include <algorithm>
 
 #include "cmd/common/command.h"
-#include "lib/graph/check.h"
+#include "cmd/common/options.h"
+#include "cmd/common/table.h"
+#include "lib/factor/plausible.h"
+#include "lib/graph/consumers.h"
 
 using namespace sg;
 
 namespace {
 
+using graph::Severity;
+
+struct Options {
+  cmd::Inputs inputs;
+  cmd::OutputOptions output;
+  std::string consumer;
+  bool json = false;
+};
+
 struct Message {
-  std::size_t line;
-  bool error;
+  std::string file;
+  std::size_t line;  // 0: of the whole file
+  Severity severity;
   std::string cause;
 };
 
+std::string_view name(Severity severity) {
+  constexpr std::array<std::string_view, 3> names{"error", "warning", "note"};
+  return names[static_cast<std::size_t>(severity)];
+}
+
 // What reading and checking find in one file, by line.
-std::vector<Message> messages(const std::string& path, formats::ReadOptions options) {
+std::vector<Message> messages(const std::string& path, const Options& options) {
+  const std::string file = text::input_name(path);
   std::vector<Message> found;
-  options.complaint = [&](const text::Error& error) {
-    found.push_back({error.line, true, error.what()});
+  formats::ReadOptions read = options.inputs.options;
+  read.complaint = [&](const text::Error& error) {
+    found.push_back({file, error.line, Severity::error, error.what()});
   };
-  const Graph graph = formats::read_graph(path, options);
-  if (graph.vertices() == 0) found.push_back({0, true, "there is no vertex and no edge in it"});
+  const Graph graph = formats::read_graph(path, read);
+  if (graph.vertices() == 0)
+    found.push_back({file, 0, Severity::error, "there is no vertex and no edge in it"});
+  graph::Findings findings = graph::check(graph);
+  const auto consumer = graph::consumer(options.consumer).value_or(graph::Consumer::any);
+  std::ranges::move(graph::check_for(graph, consumer), std::back_inserter(findings));
+  if (std::ranges::none_of(findings, [](const auto& f) { return f.severity == Severity::error; }))
+    std::ranges::move(factor::check_plausible(graph), std::back_inserter(findings));
+  std::ranges::stable_sort(findings, {}, &graph::Finding::line);
   // Findings ascend: their numbers take one pass over the text.
   std::size_t number = 1;
   Offset at = 0;
   const std::string_view text = graph.text.view;
-  for (const graph::Finding& finding : graph::check(graph)) {
-    number += std::count(text.begin() + at, text.begin() + std::max(at, finding.line), '\n');
-    at = std::max(at, finding.line);
-    found.push_back({number, finding.error, finding.cause});
+  for (graph::Finding& finding : findings) {
+    const Offset line = std::max(at, finding.line);
+    number += std::count(text.begin() + at, text.begin() + line, '\n');
+    at = line;
+    found.push_back({file, finding.line == graph::implied ? 0 : number, finding.severity,
+                     std::move(finding.cause)});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Message& a, const Message& b) { return a.line < b.line; });
+  std::ranges::stable_sort(found, {}, &Message::line);
   return found;
 }
 
-int check(const cmd::Command& command, const cmd::Inputs& inputs, const std::string& path) {
-  cmd::Output output(path);
+const std::vector<cmd::Column<Message>> columns{
+    {"file", "The file", &Message::file},
+    {"line", "Its line; none where all of it is meant",
+     [](Message& m) { return m.line ? cmd::Cell(m.line) : cmd::Cell(); }},
+    {"severity", "error, warning or note", [](Message& m) { return name(m.severity); }},
+    {"cause", "What is wrong", &Message::cause}};
+
+std::string text_of(const Message& found) {
+  const std::string place = found.line ? found.file + ":" + std::to_string(found.line) : found.file;
+  return place + ": " + std::string(name(found.severity)) + ": " + found.cause + "\n";
+}
+
+int check(const cmd::Command& command, const Options& options) {
+  cmd::Output output(options.output.path);
+  cmd::Table table({{}, true, true}, columns, {}, output);
   bool errors = false;
-  for (const auto& file : inputs.paths) {
-    const std::string name = text::input_name(file);
-    for (const Message& found : messages(file, inputs.options)) {
-      errors = errors || found.error;
-      if (command.quiet && !found.error) continue;
-      const std::string place = found.line ? name + ":" + std::to_string(found.line) : name;
-      output.write(place + (found.error ? ": error: " : ": warning: ") + found.cause + "\n");
+  for (const auto& path : options.inputs.paths) {
+    for (const Message& found : messages(path, options)) {
+      errors = errors || found.severity == Severity::error;
+      if (command.quiet && found.severity != Severity::error) continue;
+      if (options.json) {
+        table.row(found);
+      } else {
+        output.write(text_of(found));
+      }
     }
   }
   output.commit();
@@ -56,9 +99,13 @@ int check(const cmd::Command& command, const cmd::Inputs& inputs, const std::str
 
 int main(int argc, char** argv) {
   cmd::Command command("sg-check", "Find what is wrong with a graph: a line a finding.");
-  cmd::Inputs inputs;
-  cmd::OutputOptions output;
-  cmd::add_inputs(command, inputs);
-  cmd::add_output(command, output);
-  return cmd::run_status(command, argc, argv, [&] { return check(command, inputs, output.path); });
+  Options options;
+  cmd::add_inputs(command, options.inputs);
+  command.app
+      .add_option("--for", options.consumer, "Also what g2o, gtsam or toro cannot take of it")
+      ->option_text("PROGRAM")
+      ->check(cmd::one_of({"g2o", "gtsam", "toro"}));
+  command.app.add_flag("--json", options.json, "One JSON object a finding");
+  cmd::add_output(command, options.output);
+  return cmd::run_status(command, argc, argv, [&] { return check(command, options); });
 }

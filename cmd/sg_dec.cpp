@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   cmd::add_seed(command.app, seed, "Seed of random offsets");
   cmd::add_pruning(command, options);
   return cmd::run(command, argc, argv, [&] {
-    cmd::prune(command, options, [&](const cmd::Prunable& from) {
+    cmd::prune(command, options, rate > 1, [&](const cmd::Prunable& from) {
       return prune::decimate(from.graph, from.poses, from.candidates, rate, offsets.at(offset),
                              seed);
     });

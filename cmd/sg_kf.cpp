@@ -1,4 +1,5 @@
 // sg-kf: keep keyframes, by rate, distance or angle, and compose the odometry between them.
+#include <algorithm>
 #include <numbers>
 
 #include "cmd/common/options.h"
@@ -66,6 +67,10 @@ void run(const cmd::Command& command, const Options& options) {
   const auto keyframes = prune::choose_keyframes(graph, poses, odometry, rule);
   prune::Keyframing keyframing =
       prune::keyframing(graph, poses, odometry, keyframes, options.loops == "move");
+  if (rule.rate != 1 && std::ranges::find(keyframes, false) == keyframes.end())
+    cmd::warn(command, graph.file + ": no pose was dropped: all " +
+                           std::to_string(keyframes.size()) +
+                           " are keyframes (the first of a segment, and fixed ones, always are)");
   report(command, keyframing);
   formats::Changes changes =
       cmd::pruned(command, graph, poses, options.pruning.min_obs, std::move(keyframing.removal));

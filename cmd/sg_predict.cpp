@@ -4,6 +4,7 @@
 #include "cmd/common/table.h"
 #include "lib/elim/predict.h"
 #include "lib/text/error.h"
+#include "lib/text/words.h"
 
 using namespace sg;
 
@@ -85,17 +86,27 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_table(command, options.table, columns);
 }
 
-elim::Sizes sizes_of(const Options& options) {
+// Nothing, and a word why, of a graph that the forms say nothing of.
+std::optional<elim::Sizes> sizes_of(const cmd::Command& command, const Options& options) {
   if (options.poses) {
-    return {static_cast<double>(*options.poses) * options.pose_dim,
-            static_cast<double>(options.landmarks) * options.landmark_dim};
+    return elim::Sizes{static_cast<double>(*options.poses) * options.pose_dim,
+                       static_cast<double>(options.landmarks) * options.landmark_dim};
   }
   cmd::Input input = options.input;
   if (input.path.empty()) input.path = "-";
   const Graph graph = cmd::read(input);
   const elim::Sizes sizes = elim::sizes(graph);
   if (sizes.poses == 0) throw text::input_error(graph.file, 0, "no pose in it to predict from");
-  return sizes;
+  const double sighted = elim::sighted(graph);
+  if (sighted >= elim::least_sighted) return sizes;
+  cmd::warn(command, graph.file +
+                         ": no prediction: the closed forms are of graphs in which every pose sees "
+                         "every landmark, " +
+                         (sighted > 0 ? "and here a landmark is seen from " +
+                                            text::format_number(std::round(1000 * sighted) / 10) +
+                                            " % of the poses"
+                                      : std::string("and here there is none")));
+  return std::nullopt;
 }
 
 void predict(const cmd::Command& command, const Options& options) {
@@ -111,7 +122,7 @@ void predict(const cmd::Command& command, const Options& options) {
   cmd::Output output(options.output.path);
   cmd::Table table(options.table, columns,
                    {{"a graph or counts", sized}, {"--ec", options.ec.has_value()}}, output);
-  const auto sizes = sized ? std::optional(sizes_of(options)) : std::nullopt;
+  const auto sizes = sized ? sizes_of(command, options) : std::nullopt;
   for (const double r : options.rates) table.row({r, sizes, options.ec});
   output.commit();
 }

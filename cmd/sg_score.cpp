@@ -1,5 +1,6 @@
 // sg-score: what a graph is worth, and what it costs, in one row.
 #include <algorithm>
+#include <iterator>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
@@ -109,6 +110,20 @@ void check_columns(const Options& options) {
   }
 }
 
+// What makes a comparison other than it looks.
+void warn_of_reference(const cmd::Command& command, const Options& options, const Graph& graph,
+                       const score::Trajectory& reference) {
+  const score::Trajectory own = score::trajectory(graph);
+  std::vector<Id> shared;
+  std::ranges::set_intersection(own.id, reference.id, std::back_inserter(shared));
+  const std::string both = graph.file + " and " + text::input_name(options.reference);
+  if (shared.empty()) {
+    cmd::warn(command, both + " have no pose in common (poses are matched by id)");
+  } else if (score::is_planar(own) != score::is_planar(reference)) {
+    cmd::warn(command, both + ": one is planar, the other is not; errors are taken in space");
+  }
+}
+
 void run(const cmd::Command& command, const Options& options) {
   cmd::check_form(command.app);
   if (options.reference.empty()) cmd::refuse(command.app, {"--align"}, "without --reference");
@@ -124,6 +139,7 @@ void run(const cmd::Command& command, const Options& options) {
   const trees::Weights weights = trees::tree_weights(options.weights).value();
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
+    if (reference) warn_of_reference(command, options, graph, *reference);
     const cmd::Method method = cmd::methods(options.method, graph).front();
     table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
   }

@@ -102,6 +102,9 @@ void run(const cmd::Command& command, const Options& options) {
   for (const Index e : candidates) removal.edge[e] = true;
   for (const prune::Accepted& step : accepted) removal.edge[step.edge] = false;
   warn_of_parts(command, graph, poses, removal);
+  std::vector<bool> stays;
+  for (const Index e : candidates) stays.push_back(!removal.edge[e]);
+  cmd::warn_if_nothing_goes(command, from, stays, cmd::asks_to_prune(options.amount));
   if (options.trace) print_trace(options, graph, accepted);
   if (options.trace && options.pruning.output.path.empty()) return;
   cmd::write_pruned(command, options.pruning, from, std::move(removal));

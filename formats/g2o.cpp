@@ -152,6 +152,8 @@ void parse_comment(Parser& parser, Offset at, std::string_view comment) {
   if (!comment.starts_with(order_comment)) return;
   comment.remove_prefix(order_comment.size());
   parser.graph.order_method = text::next_word(comment);
+  // "colamd, until sg-dec changed the graph": no longer an order of what is there.
+  if (parser.graph.order_method.ends_with(',')) parser.graph.order_method.clear();
   parser.graph.order_lines.push_back(at);
 }
 

@@ -1,32 +1,46 @@
 #include "formats/reorder.h"
 
+#include <algorithm>
+
 namespace sg::formats {
 namespace {
 
-std::string_view lines_of(const Graph& graph, Index v) {
-  const auto [begin, end] = vertex_extent(graph, v);
-  return graph.text.view.substr(static_cast<std::size_t>(begin),
-                                static_cast<std::size_t>(end - begin));
+// Where the first line stands that defines a vertex or names one.
+Offset first_mention(const Graph& graph) {
+  Offset first = graph.vertex_line[graph::file_order(graph).front()];
+  if (graph.edges() > 0) first = std::min(first, graph.edge_line.front());
+  if (!graph.fix_lines.empty()) first = std::min(first, graph.fix_lines.front());
+  return first;
 }
 
-// The newline stays with the place: the last line of a file may lack it.
-std::string with_end_of(std::string_view lines, std::string_view place) {
-  std::string result(lines.substr(0, lines.size() - (lines.ends_with('\n') ? 1 : 0)));
-  if (place.ends_with('\n')) result += '\n';
-  return result;
+// Whether the VERTEX lines stand in this order, and before all that names them.
+bool stands(const Graph& graph, const std::vector<Index>& order) {
+  if (order != graph::file_order(graph)) return false;
+  const Offset last = graph.vertex_line[order.back()];
+  return (graph.edges() == 0 || last < graph.edge_line.front()) &&
+         (graph.fix_lines.empty() || last < graph.fix_lines.front());
 }
 
 }  // namespace
 
 std::vector<Edit> reordered(const Graph& graph, const std::vector<Index>& order) {
-  const std::vector<Index> places = graph::file_order(graph);
   std::vector<Edit> edits;
-  edits.reserve(places.size());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    if (places[k] == order[k]) continue;
-    const auto [begin, end] = vertex_extent(graph, places[k]);
-    edits.push_back(
-        {begin, end, with_end_of(lines_of(graph, order[k]), lines_of(graph, places[k]))});
+  if (order.empty() || stands(graph, order)) return edits;
+  std::string lines;
+  for (const Index v : order) {
+    const auto [begin, end] = vertex_extent(graph, v);
+    lines += graph.text.view.substr(begin, end - begin);
+    if (lines.back() != '\n') lines += '\n';
+  }
+  const Offset place = first_mention(graph);
+  edits.push_back({place, place, std::move(lines)});
+  for (const Index v : graph::file_order(graph)) {
+    const auto [begin, end] = vertex_extent(graph, v);
+    if (edits.size() > 1 && edits.back().end == begin) {
+      edits.back().end = end;
+    } else {
+      edits.push_back({begin, end, ""});
+    }
   }
   return edits;
 }

@@ -7,9 +7,10 @@
 
 namespace sg::formats {
 
-// The edits that put the VERTEX lines into `order`, a permutation of the vertices: where the file's
-// k-th VERTEX line stands comes that of order[k], with the data lines that belong to it. Every
-// other line stays where it is.
+// The edits that put the VERTEX lines into `order`, a permutation of the vertices of a graph that has
+// them: all where the first of them stood, or before the first line that names one, each with the data
+// lines that belong to it. A reader in one pass then knows every vertex that a line names. Every other
+// line stays where it is; nothing to do where all is so already.
 std::vector<Edit> reordered(const Graph& graph, const std::vector<Index>& order);
 
 }  // namespace sg::formats

@@ -24,7 +24,7 @@ void edit_fix_lines(const Graph& graph, const std::vector<bool>& drop_vertex,
     bool dropped = false;
     for (auto word = text::next_word(rest); !word.empty(); word = text::next_word(rest)) {
       const auto v = graph::find_vertex(graph, text::parse<Id>(word).value_or(-1));
-      if (!v || drop_vertex[*v]) {
+      if (v ? drop_vertex[*v] : !graph.left_out.empty()) {
         dropped = true;
       } else {
         kept += " " + std::string(word);

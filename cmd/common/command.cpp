@@ -6,6 +6,8 @@
 #include <csignal>
 #include <iostream>
 
+#include "lib/text/words.h"
+
 namespace sg::cmd {
 namespace {
 
@@ -238,9 +240,32 @@ std::string trace_comment(const Command& command, const OutputOptions& output) {
   return output.trace_comment ? "# " + command.call + "\n" : "";
 }
 
+namespace {
+
+bool changes_structure(const formats::Changes& changes) {
+  const auto any = [](const std::vector<bool>& marks) {
+    return std::ranges::find(marks, true) != marks.end();
+  };
+  return any(changes.drop_vertex) || any(changes.drop_edge) || !changes.append.empty();
+}
+
+// An ordering was made for the structure that it found: the comment that sg-order left says until when.
+void mark_stale_orders(const Command& command, const Graph& graph, formats::Changes& changes) {
+  if (graph.order_method.empty() || !changes_structure(changes)) return;
+  for (const Offset line : graph.order_lines) {
+    auto end = line + static_cast<Offset>(graph::line_at(graph, line).size());
+    while (text::is_blank(graph.text.view[end - 1])) --end;
+    if (graph.text.view[end - 1] == ',') continue;
+    changes.edits.push_back({end, end, ", until " + command.name + " changed the graph"});
+  }
+}
+
+}  // namespace
+
 void write_filtered(const Command& command, const OutputOptions& options, const Graph& graph,
                     formats::Changes changes) {
   Output output(options.path);
+  mark_stale_orders(command, graph, changes);
   formats::write_changed(graph, std::move(changes), trace_comment(command, options), output);
   output.commit();
 }

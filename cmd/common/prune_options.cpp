@@ -71,6 +71,10 @@ Prunable read_prunable(const PruneOptions& options) {
   return result;
 }
 
+bool asks_to_prune(const Amount& amount) {
+  return amount.rate.value_or(2) > 1 && amount.fraction.value_or(0) < 1;
+}
+
 std::size_t kept_count(const Amount& amount, const Prunable& prunable,
                        const formats::ReadOptions& options) {
   const std::size_t candidates = prunable.candidates.size();
@@ -106,11 +110,29 @@ void write_pruned(const Command& command, const PruneOptions& options, const Pru
                  pruned(command, graph, poses, options.min_obs, std::move(removal)));
 }
 
-void prune(const Command& command, const PruneOptions& options,
+void warn_if_nothing_goes(const Command& command, const Prunable& prunable,
+                          const std::vector<bool>& kept, bool asked) {
+  if (!asked || std::ranges::find(kept, false) != kept.end()) return;
+  const bool loops = prunable.kind == prune::Candidates::loops;
+  const std::string kind = loops ? "loop closures"
+                           : prunable.kind == prune::Candidates::observations
+                               ? "observations of landmarks"
+                               : "loop closures and observations";
+  warn(command, prunable.graph.file +
+                    (kept.empty() ? ": there was nothing to prune: no " + kind +
+                                        " among its edges (odometry, and what joins other "
+                                        "vertices than poses and landmarks, never goes)"
+                                  : ": nothing was pruned: all " + std::to_string(kept.size()) +
+                                        " " + kind + " stay"));
+}
+
+void prune(const Command& command, const PruneOptions& options, bool asked,
            const std::function<std::vector<bool>(const Prunable&)>& kept) {
   const Prunable prunable = read_prunable(options);
+  const std::vector<bool> stays = kept(prunable);
+  warn_if_nothing_goes(command, prunable, stays, asked);
   write_pruned(command, options, prunable,
-               prune::removal_of_rest(prunable.graph, prunable.candidates, kept(prunable)));
+               prune::removal_of_rest(prunable.graph, prunable.candidates, stays));
 }
 
 }  // namespace sg::cmd

@@ -44,14 +44,21 @@ Prunable read_prunable(const PruneOptions& options);
 std::size_t kept_count(const Amount& amount, const Prunable& prunable,
                        const formats::ReadOptions& options);
 
+// Whether less than all candidates are asked for.
+bool asks_to_prune(const Amount& amount);
+// `kept`: of every candidate, whether it stays.
+void warn_if_nothing_goes(const Command& command, const Prunable& prunable,
+                          const std::vector<bool>& kept, bool asked);
+
 // The changes to a graph that a removal makes, after a sweep of its landmarks; -v reports them.
 formats::Changes pruned(const Command& command, const Graph& graph, const graph::PoseIndex& poses,
                         Index min_obs, prune::Removal removal);
 // Writes the graph without what a removal makes leave.
 void write_pruned(const Command& command, const PruneOptions& options, const Prunable& prunable,
                   prune::Removal removal);
-// The same for a policy that says of every candidate whether it stays.
-void prune(const Command& command, const PruneOptions& options,
+// The same for a policy that says of every candidate whether it stays. `asked`: whether the call asks to
+// remove any; that none goes is told then.
+void prune(const Command& command, const PruneOptions& options, bool asked,
            const std::function<std::vector<bool>(const Prunable&)>& kept);
 
 }  // namespace sg::cmd

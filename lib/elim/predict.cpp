@@ -1,5 +1,9 @@
 #include "lib/elim/predict.h"
 
+#include <algorithm>
+
+#include "lib/graph/summary.h"
+
 namespace sg::elim {
 
 Sizes sizes(const Graph& graph) {
@@ -10,6 +14,14 @@ Sizes sizes(const Graph& graph) {
     if (graph.role(v) == graph::Role::landmark) sizes.landmarks += graph.dim(v);
   }
   return sizes;
+}
+
+double sighted(const Graph& graph) {
+  const auto poses = std::ranges::count_if(graph.vertex_type, [&](graph::TypeIndex t) {
+    return graph.tags.vertices[t].role == graph::Role::pose;
+  });
+  return poses == 0 ? 0
+                    : graph::average_observations(graph).value_or(0) / static_cast<double>(poses);
 }
 
 double predict_full(const Sizes& sizes) {

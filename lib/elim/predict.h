@@ -24,6 +24,12 @@ struct Sizes {
 // Of a graph's vertices that are not fixed; vertices that are neither stay out.
 Sizes sizes(const Graph& graph);
 
+// The mean part of the poses that a landmark is seen from: 1 where the forms hold, 0 without landmarks.
+// Below `least_sighted` they say nothing: EC then follows from how poses are joined, not from how many
+// there are. (The paper's simulation has 0.11.)
+double sighted(const Graph& graph);
+constexpr double least_sighted = 0.05;
+
 double predict_full(const Sizes& sizes);
 double predict_keyframes(const Sizes& sizes, double rate);
 double predict_decimation(const Sizes& sizes, double rate);

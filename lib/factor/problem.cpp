@@ -38,16 +38,9 @@ ParamTable parse_params(const Graph& graph) {
     ParsedParam parsed{param.type, param.line, {}};
     graph::param_numbers(graph, param, parsed.numbers);
     check_finite(graph, param.line, parsed.numbers);
-    table[param.id] = std::move(parsed);
+    table.try_emplace(param.id, std::move(parsed));  // the first holds, as in g2o
   }
   return table;
-}
-
-// Whether a line of one type of parameters can stand for another: a stereo camera is a camera, and a
-// camera has an offset.
-bool serves_as(graph::ParamTag wanted, graph::ParamTag given) {
-  if (given == wanted || given == graph::ParamTag::unknown) return given == wanted;
-  return graph::row(given).also != given && serves_as(wanted, graph::row(given).also);
 }
 
 // The pose that a parameter starts with is brought to unit length: text rounds it.
@@ -79,7 +72,7 @@ std::array<const double*, max_ends> find_params(Builder& builder, Index e, const
   for (std::size_t k = 0; k < model.params.size(); ++k) {
     const auto entry = builder.params.find(ids[k]);
     const graph::ParamTag wanted = model.params[k];
-    if (entry == builder.params.end() || !serves_as(wanted, entry->second.type)) {
+    if (entry == builder.params.end() || !graph::serves_as(wanted, entry->second.type)) {
       throw graph::error_at(graph, graph.edge_line[e],
                             quoted(model.tag) + " wants a " + quoted(graph::name(wanted)) +
                                 " line with the id " + std::to_string(ids[k]));

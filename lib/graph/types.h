@@ -313,6 +313,12 @@ constexpr const EdgeRow& row(EdgeTag type) {
 constexpr const ParamRow& row(ParamTag type) {
   return param_rows[static_cast<std::size_t>(type)];
 }
+// Whether a line of one type of parameters can stand for another: a stereo camera is a camera, and a
+// camera has an offset.
+constexpr bool serves_as(ParamTag wanted, ParamTag given) {
+  if (given == wanted || given == ParamTag::unknown) return given == wanted;
+  return row(given).also != given && serves_as(wanted, row(given).also);
+}
 constexpr std::string_view name(VertexTag type) {
   return row(type).tag;
 }

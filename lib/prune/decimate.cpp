@@ -28,10 +28,13 @@ Sighting sighting(const Graph& graph, const graph::PoseIndex& poses, Index e) {
 
 std::vector<Index> first_offsets(const Graph& graph, const graph::PoseIndex& poses,
                                  const std::vector<Index>& candidates, Index rate) {
-  std::vector<Index> offset(graph.vertices(), std::numeric_limits<Index>::max());
+  std::vector<Index> offset(graph.vertices(), 0);
+  for (std::size_t v = 0; v < offset.size(); ++v) {
+    if (graph.role(v) == graph::Role::landmark) offset[v] = std::numeric_limits<Index>::max();
+  }
   for (Index e : candidates) {
     const auto [pose, landmark] = sighting(graph, poses, e);
-    offset[landmark] = std::min(offset[landmark], pose);
+    offset[landmark] = std::min(offset[landmark], pose);  // 0 of a pose
   }
   for (Index& k : offset) k %= rate;
   return offset;

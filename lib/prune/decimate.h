@@ -12,13 +12,15 @@
 namespace sg::prune {
 
 enum class DecimationOffset : std::uint8_t {
-  first,    // the pose index of the landmark's first observation, mod r: that one stays
+  first,  // the pose index of the landmark's first observation, mod r: that one stays; 0 of a pose
   aligned,  // 0 for all
   random,   // drawn per landmark
 };
 
 // Which of the candidates stay, side by side with them. The observing pose of an edge is its last;
-// its landmark is the first that it names. Of a loop closure, the earlier pose is the landmark.
+// its landmark is the first that it names. Of a loop closure, the earlier pose stands for the landmark.
+// Most places are closed upon once or twice: to keep the first closure of each would keep nearly all.
+// Hence closures stay by the later pose's index alone, unless offsets are drawn.
 // rate >= 1; `seed` matters to random offsets alone. O(candidates + vertices).
 std::vector<bool> decimate(const Graph& graph, const graph::PoseIndex& poses,
                            const std::vector<Index>& candidates, Index rate,

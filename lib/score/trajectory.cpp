@@ -101,6 +101,12 @@ Trajectory trajectory(const Graph& graph) {
   return result;
 }
 
+bool is_planar(const Trajectory& trajectory) {
+  return std::ranges::all_of(trajectory.pose, [](const SE3& pose) {
+    return pose.t.z() == 0 && pose.q.x() == 0 && pose.q.y() == 0;
+  });
+}
+
 std::optional<Alignment> alignment(std::string_view name) {
   if (name == "none") return Alignment::none;
   if (name == "se") return Alignment::se;

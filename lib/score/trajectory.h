@@ -21,6 +21,9 @@ struct Trajectory {
 // edges-only file: as composed along its edges. Throws an input Error for poses of another kind.
 Trajectory trajectory(const Graph& graph);
 
+// Whether no pose leaves z = 0, nor turns about another axis than z.
+bool is_planar(const Trajectory& trajectory);
+
 enum class Alignment : std::uint8_t { none, se, sim };
 // The kind of that name, if there is one.
 std::optional<Alignment> alignment(std::string_view name);

@@ -339,7 +339,7 @@ TEST_CASE("decimation is algorithm 1", "[prune]") {
     const graph::PoseIndex poses = graph::pose_index(graph);
     const auto candidates = prune::candidate_edges(graph, poses, prune::Candidates::both);
     const Index rate = draw(random, 1, 5);
-    std::map<Index, Index> first;  // of every landmark, or earlier pose of a loop closure
+    std::map<Index, Index> first;  // of every landmark; 0 of the earlier pose of a loop closure
     const auto observed = [&](Index e) {
       const auto ends = graph.edge(e);
       if (graph::edge_role(graph, poses, e) == graph::EdgeRole::observation)
@@ -352,7 +352,8 @@ TEST_CASE("decimation is algorithm 1", "[prune]") {
       return last;
     };
     for (Index e : candidates) {
-      const auto it = first.emplace(observed(e), observer(e)).first;
+      const bool landmark = graph.role(observed(e)) == graph::Role::landmark;
+      const auto it = first.emplace(observed(e), landmark ? observer(e) : 0).first;
       it->second = std::min(it->second, observer(e));
     }
     const auto by_first =

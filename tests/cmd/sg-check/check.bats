@@ -32,7 +32,7 @@ unit='1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1'
   run -1 sg-check broken.g2o
   printf '%s\n' "${lines[@]}" >out
   cut -d: -f2 out | sort -nc
-  [ "$(wc -l <out)" = 13 ]
+  [ "$(wc -l <out)" = 14 ]
   run -1 sg-check -q broken.g2o
   [ "$output" = "$(grep ': error: ' out)" ]
 }
@@ -60,6 +60,12 @@ unit='1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1'
   printf 'EDGE_SE2 1 2 0 0 0 1 0 0 1 0 0\nEDGE_SE2 1 2 0 0 0 1 2 0 1 0 1\nEDGE_SE2 1 2 0 0 0 0 0 0 0 0 -1\n' |
     finds '<stdin>:2: error: the information matrix of EDGE_SE2 is not positive semidefinite' \
       '<stdin>:3: error: the information matrix of EDGE_SE2 is not positive semidefinite'
+}
+
+@test "lines are counted from the first, be it blank" {
+  printf '\nVERTEX_SE2 1 0 0 0\nEDGE_SE2 1 1 0 0 0 1 0 0 1 0 1\n' >in.g2o
+  run -1 sg-check in.g2o
+  [[ "$output" == *"in.g2o:3: "*"joins vertex 1 to itself"* ]]
 }
 
 @test "TORO's own order of the information is known" {

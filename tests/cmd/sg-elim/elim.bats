@@ -37,6 +37,13 @@ setup() { cd "$TESTDATA"; }
   dot -Tsvg "$BATS_TEST_TMPDIR/out.dot" >"$BATS_TEST_TMPDIR/out.svg"
 }
 
+@test "--dot leaves out what touched a variable that has gone" {
+  printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >"$BATS_TEST_TMPDIR/chain.g2o"
+  sg-elim --dot -m id "$BATS_TEST_TMPDIR/chain.g2o" >"$BATS_TEST_TMPDIR/chain.dot"
+  [ "$(grep -c ' -- ' "$BATS_TEST_TMPDIR/chain.dot")" -eq 3 ]  # two edges, then one, then none
+  run -1 grep g1_1 "$BATS_TEST_TMPDIR/chain.dot"
+}
+
 @test "wrong calls and too large graphs" {
   run -2 sg-elim -m colamd,amd figure1.g2o
   run -2 sg-elim -m nonsense figure1.g2o

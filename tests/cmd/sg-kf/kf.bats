@@ -24,6 +24,17 @@ setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
   [ "$(awk '/_XY/ && /EDGE/ {print $2, $3}' out.g2o | paste -sd,)" = "0 100,2 100,2 101,4 101" ]
 }
 
+@test "a keyframe every so many degrees turned" {
+  for k in 0 1 2 3 4 5 6 7 8; do echo "EDGE_SE2 $k $((k + 1)) 1 0 0.7854 1 0 0 1 0 1"; done >turn.g2o
+  [ "$(sg-kf --angle 90 turn.g2o | awk '/^EDGE/ {print $2, $3}' | paste -sd,)" = "0 2,2 4,4 6,6 8" ]
+  [ "$(sg-kf --angle 100 turn.g2o | awk '/^EDGE/ {print $2, $3}' | paste -sd,)" = "0 3,3 6,6 9" ]
+}
+
+@test "camera odometry of edges alone is composed, where there is one edge a step" {
+  for k in 0 1; do echo "EDGE_SE3:EXPMAP $k $((k + 1)) 1 0 0 0 0 0 1 $(printf '%s ' 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1)"; done >in.g2o
+  [ "$(sg-kf -r 2 in.g2o | awk '/^EDGE/ {print $2, $3, $4}')" = "0 2 2" ]
+}
+
 @test "landmarks with too few observations leave" {
   sg-kf -r 4 --min-obs 2 walk.g2o >out.g2o
   run -1 grep _XY out.g2o

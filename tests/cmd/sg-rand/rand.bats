@@ -27,6 +27,12 @@ kept() { sg-rand "$@" walk.g2o | grep -c EDGE_SE2_XY || true; }
   [ "$(wc -l <all)" -eq 6 ]
 }
 
+@test "the seed is 1 where nobody gives one" {
+  sg-gen sine -n 30 -o sine.g2o
+  cmp <(sg-rand -r 2 --no-trace-comment sine.g2o) <(sg-rand -r 2 --seed 1 --no-trace-comment sine.g2o)
+  run -1 cmp -s <(sg-rand -r 2 --no-trace-comment sine.g2o) <(sg-rand -r 2 --seed 2 --no-trace-comment sine.g2o)
+}
+
 @test "odometry stays, whatever goes" {
   [ "$(sg-rand -k 0 --candidates both walk.g2o | grep -c '^EDGE_SE2 ')" = 4 ]
 }

@@ -20,6 +20,11 @@ close() {
     END { exit bad }'
 }
 
+@test "wrong kernels are told before the graph is read" {
+  run -2 env SGTOOLS_KERNELS=sse9 sg-solve missing.g2o
+  [[ "$output" == *"no kernels 'sse9'"* ]]
+}
+
 @test "a name that is none, or that this machine cannot run, is a usage error" {
   for command in sg-solve sg-isam2; do
     run -2 env SGTOOLS_KERNELS=sse9 "$command" "$TESTDATA/walk.g2o"
