@@ -89,7 +89,7 @@ void add_options(cmd::Command& command, Options& options) {
                   "Move onto it: se (rigidly; the default), sim (and\nscale), none")
       ->option_text("HOW")
       ->check(cmd::one_of({"se", "sim", "none"}));
-  cmd::add_method(command, options.method);
+  cmd::add_methods(command, options.method);
   cmd::add_output(command, options.output);
   cmd::add_table(command, options.table, columns);
 }
@@ -140,8 +140,9 @@ void run(const cmd::Command& command, const Options& options) {
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
     if (reference) warn_of_reference(command, options, graph, *reference);
-    const cmd::Method method = cmd::methods(options.method, graph).front();
-    table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
+    for (const cmd::Method& method : cmd::methods(options.method, graph)) {
+      table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
+    }
   }
   output.commit();
 }

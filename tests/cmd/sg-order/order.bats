@@ -93,11 +93,11 @@ others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
 
 @test "wrong calls" {
   [[ "$(methods)" == *colamd,*sloan* ]]
-  fails 2 "sg-order: no ordering is called 'colmad'; there are $(methods) (see sg-order --help)" sg-order -m colmad walk.g2o
+  fails 2 "sg-order: no ordering 'colmad': did you mean colamd? There are $(methods) (see sg-order --help)" sg-order -m colmad walk.g2o
   fails 2 "sg-order: --last: vertex 17 is not in the graph (see sg-order --help)" sg-order --last 17 walk.g2o
   fails 2 "sg-order: --last: vertex 0 is fixed (see sg-order --help)" sg-order --last 4,0 walk.g2o
   fails 2 "sg-order: graph and order cannot both come from standard input (see sg-order --help)" sg-order --apply -
-  fails 2 "sg-order: --method excludes --apply (see sg-order --help)" sg-order --apply order -m id walk.g2o
+  fails 2 "sg-order: -m computes an order, --apply takes the one of a file: give one of them (see sg-order --help)" sg-order --apply order -m id walk.g2o
 }
 
 @test "public graphs: the order survives the file" {
