@@ -97,14 +97,12 @@ std::string wrong_ending(const std::string& path, const std::string& writes) {
                            : writes == "dot" ? "text for Graphviz"
                                              : "JSON";
   const std::string cause = path + ": what is written is " + what;
-  if (is_one_of({"toro", "isam", "tum", "mtx", "metis", "dot"}) && writes == "g2o")
+  if (is_one_of({"toro", "isam", "bal", "tum", "mtx", "metis", "dot"}) && writes == "g2o")
     return cause + "; sg-convert --to " + ending + " writes the other";
   if (ending == "json" && writes == "tsv") return cause + "; --json makes it JSON";
   if (ending == "tsv" && writes == "json") return cause + "; without --json it is a table";
-  if (is_one_of({"svg", "png", "pdf"}))
-    return cause +
-           (writes == "dot" ? "; dot -T" + ending + " draws it" : "; sg-plot draws pictures");
-  return is_one_of({"g2o", "toro", "isam", "tum", "kitti", "mtx", "metis", "dot", "json", "tsv"})
+  return is_one_of(
+             {"g2o", "toro", "isam", "bal", "tum", "kitti", "mtx", "metis", "dot", "json", "tsv"})
              ? cause
              : "";
 }

@@ -93,7 +93,7 @@ CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& wha
 
 void add_unused_seed(CLI::App& app) {
   static std::uint64_t unused = 1;
-  add_seed(app, unused, "Nothing is random here; for the sake of sweeps");
+  add_seed(app, unused, "Draws nothing; taken for sweeps");
 }
 
 CLI::Option* add_entry(CLI::App& app, Index& min_obs, const std::string& who) {
