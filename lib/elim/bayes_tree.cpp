@@ -54,9 +54,9 @@ graph::Lists<> clique_separators(const OrderedPattern& pattern, const BayesTree&
   const Index cliques = tree.cliques();
   assert(tree.clique.size() == pattern.dim.size());
   const graph::Lists<> children = graph::grouped(tree.parent, cliques);
-  std::vector<Index> row_clique;
+  std::vector<Index> row_clique(pattern.rows.size());
   for (Index r = 0; r < pattern.rows.size(); ++r)
-    row_clique.push_back(tree.clique[pattern.rows[r].front()]);
+    row_clique[r] = tree.clique[pattern.rows[r].front()];
   const graph::Lists<> rows = graph::grouped(row_clique, cliques);
 
   // From the leaves up: list c belongs to clique (cliques - 1 - c) until the end.

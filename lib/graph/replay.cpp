@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "lib/graph/lists.h"
+
 namespace sg::graph {
 namespace {
 
@@ -17,23 +19,21 @@ Index last_pose(const Graph& graph, const PoseIndex& poses, Index e) {
 // never comes.
 void enter_observed(const Graph& graph, const PoseIndex& poses, int min_obs,
                     std::vector<Index>& vertex_step) {
-  std::vector<std::pair<Index, Index>> seen;  // (vertex, step of an observation)
-  for (Index e = 0; e < graph.edges(); ++e) {
-    const Index last = last_pose(graph, poses, e);
-    if (last < 0) continue;
-    for (Index v : graph.edge(e)) {
-      if (poses.index[v] < 0) seen.emplace_back(v, last);
+  Lists<> seen = counting_sort(graph.vertices(), [&](const auto& put) {  // steps of observations
+    for (Index e = 0; e < graph.edges(); ++e) {
+      const Index last = last_pose(graph, poses, e);
+      for (Index v : graph.edge(e)) {
+        if (last >= 0 && poses.index[v] < 0) put(v, last);
+      }
     }
-  }
-  std::sort(seen.begin(), seen.end());
-  for (std::size_t first = 0; first < seen.size();) {
-    const Index v = seen[first].first;
-    std::size_t end = first;
-    while (end < seen.size() && seen[end].first == v) ++end;
-    const std::size_t needed =
-        graph.role(v) == Role::landmark ? static_cast<std::size_t>(min_obs) : 1;
-    if (end - first >= needed) vertex_step[v] = seen[first + needed - 1].second;
-    first = end;
+  });
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const Index needed = graph.role(v) == Role::landmark ? min_obs : 1;
+    if (seen.begin[v + 1] - seen.begin[v] < needed) continue;
+    const auto entry = seen.items.begin() + seen.begin[v] + needed - 1;
+    std::nth_element(seen.items.begin() + seen.begin[v], entry,
+                     seen.items.begin() + seen.begin[v + 1]);
+    vertex_step[v] = *entry;
   }
 }
 
@@ -41,29 +41,28 @@ void enter_observed(const Graph& graph, const PoseIndex& poses, int min_obs,
 // search from the vertices that have a step, earliest first, through those that no pose observes.
 void spread(const Graph& graph, const PoseIndex& poses, std::vector<Index>& vertex_step) {
   std::vector<bool> observed(graph.vertices(), false);
-  std::vector<std::pair<Index, Index>> incident;  // (vertex, edge), of those edges
   for (Index e = 0; e < graph.edges(); ++e) {
-    if (last_pose(graph, poses, e) < 0) {
-      for (Index v : graph.edge(e)) incident.emplace_back(v, e);
-    } else {
-      for (Index v : graph.edge(e)) observed[v] = true;
+    if (last_pose(graph, poses, e) < 0) continue;
+    for (Index v : graph.edge(e)) observed[v] = true;
+  }
+  const Lists<> incident = counting_sort(graph.vertices(), [&](const auto& put) {
+    for (Index e = 0; e < graph.edges(); ++e) {
+      if (last_pose(graph, poses, e) >= 0) continue;
+      for (Index v : graph.edge(e)) put(v, e);
     }
-  }
-  std::sort(incident.begin(), incident.end());
+  });
   std::vector<Index> reached;
-  for (const auto& [v, e] : incident) {
-    if (vertex_step[v] >= 0 && (reached.empty() || reached.back() != v)) reached.push_back(v);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (vertex_step[v] >= 0 && !incident[v].empty()) reached.push_back(v);
   }
-  std::stable_sort(reached.begin(), reached.end(),
-                   [&](Index a, Index b) { return vertex_step[a] < vertex_step[b]; });
+  std::ranges::stable_sort(reached, {}, [&](Index v) { return vertex_step[v]; });
 
   for (const Index source : reached) {
     for (std::vector<Index> stack{source}; !stack.empty();) {
       const Index v = stack.back();
       stack.pop_back();
-      auto it = std::lower_bound(incident.begin(), incident.end(), std::pair<Index, Index>{v, 0});
-      for (; it != incident.end() && it->first == v; ++it) {
-        for (Index u : graph.edge(it->second)) {
+      for (Index e : incident[v]) {
+        for (Index u : graph.edge(e)) {
           if (vertex_step[u] >= 0 || observed[u]) continue;
           vertex_step[u] = vertex_step[v];
           stack.push_back(u);

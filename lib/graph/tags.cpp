@@ -1,10 +1,11 @@
 #include "lib/graph/tags.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 
 #include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg::graph {
 namespace {
@@ -40,9 +41,7 @@ void add(Tags& tags, std::vector<Type>& types, LineKind kind, Type type) {
 
 // A whole number of 1 or more, 0 for anything else.
 int positive(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && value > 0 ? value : 0;
+  return std::max(0, text::parse<int>(text).value_or(0));
 }
 
 // Cuts what follows the last colon off: a tag may hold colons, the rest may not. Empty without one.

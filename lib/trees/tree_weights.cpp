@@ -1,9 +1,12 @@
 #include "lib/trees/tree_weights.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "lib/geometry/information.h"
+#include "lib/geometry/triangle.h"
 #include "lib/text/error.h"
 
 namespace sg::trees {
@@ -22,20 +25,12 @@ const graph::EdgeType& measured_type(const Graph& graph, Index e) {
 
 // The determinant of these rows and columns of the information, to the power of one over their
 // number.
-double mean_information(const graph::EdgeType& type, const graph::Axes& axes,
-                        const std::vector<double>& numbers) {
-  const auto w = [&](int i, int j) {
-    i += axes.first, j += axes.first;
-    if (i > j) std::swap(i, j);
-    return numbers[type.measurement + i * type.dim - i * (i - 1) / 2 + (j - i)];
-  };
+double mean_information(const geometry::SmallMatrix& W, const graph::Axes& axes) {
+  const auto block = W.block(axes.first, axes.first, axes.size, axes.size);
   if (axes.size == 0) return 0;
-  if (axes.size == 1) return std::max(0.0, w(0, 0));
-  if (axes.size == 2) return std::sqrt(std::max(0.0, w(0, 0) * w(1, 1) - w(0, 1) * w(0, 1)));
-  const double det = w(0, 0) * (w(1, 1) * w(2, 2) - w(1, 2) * w(1, 2)) -
-                     w(0, 1) * (w(0, 1) * w(2, 2) - w(1, 2) * w(0, 2)) +
-                     w(0, 2) * (w(0, 1) * w(1, 2) - w(1, 1) * w(0, 2));
-  return std::cbrt(std::max(0.0, det));
+  if (axes.size == 1) return std::max(0.0, block(0, 0));
+  if (axes.size == 2) return std::sqrt(std::max(0.0, Eigen::Matrix2d(block).determinant()));
+  return std::cbrt(std::max(0.0, Eigen::Matrix3d(block).determinant()));
 }
 
 Layer unit_layer(const Graph& graph) {
@@ -54,9 +49,10 @@ std::array<Layer, 2> information_layers(const Graph& graph) {
     const graph::EdgeType& type = measured_type(graph, e);
     const graph::SpaceRow& space = graph::facts(type.space);
     graph::edge_numbers(graph, e, numbers);
-    layers[0].weight[e] = mean_information(type, space.translation, numbers);
-    layers[1].weight[e] =
-        mean_information(type, space.rotation, numbers) * space.radian * space.radian;
+    const auto W = geometry::symmetric<geometry::SmallMatrix>(
+        std::span(numbers).subspan(type.measurement), type.dim);
+    layers[0].weight[e] = mean_information(W, space.translation);
+    layers[1].weight[e] = mean_information(W, space.rotation) * space.radian * space.radian;
     layers[0].multiplicity = std::max<double>(layers[0].multiplicity, space.translation.size);
     layers[1].multiplicity = std::max<double>(layers[1].multiplicity, space.rotation.size);
   }

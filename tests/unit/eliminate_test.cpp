@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <numeric>
 
 #include "formats/formats.h"
 #include "lib/elim/score.h"
@@ -272,6 +273,17 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
       CHECK(sg::elim::elimination_complexity(system.pattern, tree.frontals.items) == score.ec);
     }
   }
+}
+
+TEST_CASE("small cliques join their parents, where one front takes less time than two",
+          "[eliminate]") {
+  std::vector<std::vector<sg::Index>> rows;
+  for (sg::Index j = 1; j < 100; ++j) rows.push_back({j - 1, j});
+  const sg::graph::Pattern chain = make_pattern(std::vector<int>(100, 3), rows);
+  sg::graph::Order order(100);
+  std::iota(order.begin(), order.end(), 0);
+  CHECK(sg::solve::clique_tree(chain, order, false).cliques() == 99);
+  CHECK(sg::solve::clique_tree(chain, order, true).cliques() < 50);
 }
 
 TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {

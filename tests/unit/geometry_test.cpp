@@ -175,6 +175,15 @@ TEST_CASE("SE(3) follows its matrices", "[geometry]") {
   }
 }
 
+TEST_CASE("where power series take over, motions are as exact as elsewhere", "[geometry]") {
+  const Vector3d axis = Vector3d(1, 2, 2) / 3, far(300, -200, 100);
+  for (const double angle : {0.00999, 0.0101}) {
+    Vector6d v;
+    v << far, angle * axis;
+    CHECK((matrix(geometry::exp(v)) - power_series(hat(v))).norm() < 2e-13 * far.norm());
+  }
+}
+
 TEST_CASE("the inverse left Jacobian is the derivative of log", "[geometry]") {
   Random random(13);
   for (double size : {1.2, 0.1, 4e-3}) {

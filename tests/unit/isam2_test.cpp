@@ -1,6 +1,7 @@
 // The incremental smoother against batch elimination of what it holds, and its bookkeeping against
 // the definitions.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -10,6 +11,7 @@
 #include "lib/solve/batch.h"
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_replay.h"
+#include "lib/solve/landmark_point.h"
 #include "lib/solve/pool.h"
 #include "lib/solve/snapshot.h"
 #include "lib/text/error.h"
@@ -117,6 +119,8 @@ void check_tree(const sg::solve::Isam2& isam) {
 double difference(const sg::solve::Isam2& isam) {
   sg::solve::Snapshot snapshot;
   sg::solve::take_snapshot(isam, true, snapshot);
+  sg::solve::take_snapshot(isam, true, snapshot);  // overwrites
+  REQUIRE(snapshot.system.height.size() == snapshot.anchored.rows.size());
   auto elimination = sg::solve::plan_elimination(
       snapshot.system, sg::order::elimination_order("colamd", snapshot.anchored));
   REQUIRE(sg::solve::eliminate(elimination, snapshot.system).empty());
@@ -222,6 +226,57 @@ TEST_CASE("skip 0 never relinearizes, a threshold of 0 does at once", "[isam2]")
     const auto before = always.isam.variables;
     CHECK(sg::solve::replay_step(always, k).relinearized == before);
   }
+}
+
+TEST_CASE("below where steps change little nothing is touched", "[isam2]") {
+  Random random(7);
+  const sg::Graph graph = graph_of(random_walk(random, 60, true));
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
+  sg::solve::Isam2Options options;
+  options.relinearize_skip = 0;
+  options.wildfire_threshold = 0.5;
+  auto replay = sg::solve::make_isam2_replay(problem, options, 1, false);
+  const sg::solve::Isam2& isam = replay.isam;
+  sg::Index untouched = 0;
+  for (sg::Index k = 0; k < replay.steps.steps; ++k) {
+    const std::vector<double> step = isam.step, told = isam.told;
+    sg::solve::replay_step(replay, k);
+    for (const sg::solve::Isam2Clique& clique : isam.tree.cliques) {
+      if (clique.made == isam.updates) continue;
+      double change = 0;
+      bool same = true;
+      for (sg::Index j : frontals_of(isam.tree, clique)) {
+        if (isam.tree.variable_clique[j] != &clique - isam.tree.cliques.data()) continue;
+        for (sg::Index i = problem.step_at[j]; i < problem.step_at[j + 1]; ++i) {
+          change = std::max(change, std::abs(isam.step[i] - told[i]));
+          same &= isam.step[i] == step[i];
+        }
+      }
+      if (change >= options.wildfire_threshold) continue;
+      CHECK(same);
+      ++untouched;
+    }
+  }
+  CHECK(untouched > 100);
+}
+
+TEST_CASE("a landmark moves along its ray by as much as halves or doubles its distance",
+          "[isam2]") {
+  const sg::Graph graph =
+      graph_of("VERTEX_SE2 0 0 0 0\nVERTEX_XY 1 1 0\nEDGE_BEARING_SE2_XY 0 1 0 1\n");
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
+  const auto moved = [&](double step) {
+    sg::factor::Values estimate = sg::factor::file_values(problem);
+    std::vector<double> point{1, 0};
+    sg::solve::move_landmark(problem, 1, std::array{sg::Index{0}}, std::array{step, 0.0}, estimate,
+                             point.data());
+    CHECK(point[1] == 0);
+    return point[0];
+  };
+  CHECK(moved(0.25) == Approx(1.25));
+  CHECK(moved(2) == Approx(2));
+  CHECK(moved(-0.25) == Approx(0.75));
+  CHECK(moved(-0.9) == Approx(0.5));
 }
 
 TEST_CASE("a step that cannot be solved is named with what it leaves open", "[isam2]") {

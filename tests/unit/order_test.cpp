@@ -138,6 +138,22 @@ TEST_CASE("paths are ordered without fill", "[order]") {
   }
 }
 
+TEST_CASE("metis weighs variables by their dimensions, in whatever sequence these come",
+          "[order]") {
+  constexpr Index side = 14;
+  std::vector<std::vector<Index>> rows;
+  for (Index j = 0; j < side * side; ++j) {
+    if (j % side + 1 < side) rows.push_back({j, j + 1});
+    if (j + side < side * side) rows.push_back({j, j + side});
+  }
+  std::vector<int> alternating(side * side, 1);
+  for (Index j = 1; j < side * side; j += 2) alternating[j] = 40;
+  const auto order = [&](const std::vector<int>& dim) {
+    return sg::order::elimination_order("metis", make_pattern(dim, rows));
+  };
+  CHECK(order(alternating) != order(std::vector<int>(side * side, 1)));
+}
+
 TEST_CASE("a variable out of range is no last variable", "[order]") {
   Random random(6);
   const Pattern pattern = odd_pattern(random, 5);

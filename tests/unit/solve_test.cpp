@@ -8,6 +8,7 @@
 #include "lib/order/order.h"
 #include "lib/solve/batch.h"
 #include "lib/solve/normal_equations.h"
+#include "lib/solve/scaled_qr.h"
 #include "lib/solve/undetermined.h"
 #include "tests/unit/common.h"
 
@@ -124,6 +125,11 @@ TEST_CASE("normal equations are the dense ones", "[solve]") {
     for (std::size_t k = 0; k < d.size(); ++k) {
       CHECK(d[k] == Approx(expected.H(k, k)).margin(1e-12));
       CHECK(g[k] == Approx(expected.g[k]).margin(1e-12));
+    }
+    const std::vector<double> length = solve::scaled_qr(setup.system, damping).length;
+    for (std::size_t k = 0; k < d.size(); ++k) {
+      const double square = d[k] + damping[k];
+      CHECK(length[k] == Approx(square > 0 ? std::sqrt(square) : 1));
     }
   }
 }

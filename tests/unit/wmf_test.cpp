@@ -181,11 +181,26 @@ TEST_CASE("the quotient graph's fronts are exact, its degrees and fills bounds",
         const std::set<Index> around = literal.around(members(graph.variables, u));
         REQUIRE(graph.fill[u] >= literal.fill(around));
         REQUIRE(graph.degree[u] >= literal.weight(around));
+        for (Index e : graph.elements[u]) {
+          if (graph.is_element[e]) REQUIRE_FALSE(graph.members[e].empty());
+        }
       }
     }
     REQUIRE(is_permutation_of(graph.variables.order, n));
     REQUIRE(graph.variables.ec >= cost);
   }
+}
+
+TEST_CASE(
+    "the work of an elimination is foretold: pairs to be joined, by one list entry each at least",
+    "[wmf]") {
+  const std::vector<Row> rows{{0, 1}, {0, 2}, {0, 3}, {0, 4}};
+  const Pattern star_of_five = make_pattern({3, 6, 6, 6, 6}, rows);
+  const sg::order::FillGraph graph = sg::order::fill_graph(
+      sg::graph::adjacency(star_of_five), star_of_five.dim, {0, 1, 2, 3, 4}, 1 << 20);
+  REQUIRE(graph.exact);
+  CHECK(sg::order::least_work(graph, 0) == 6 * 4);  // 6 pairs, in lists of 4
+  CHECK(sg::order::least_work(graph, 1) == 0);
 }
 
 TEST_CASE("better_first finds a cheaper pair that leaves the same graph", "[wmf]") {
