@@ -302,6 +302,28 @@ TEST_CASE("landmarks that stay are triangulated", "[world]") {
   CHECK(graph.seen.begin == std::vector<Index>{0, 1, 2, 3});
 }
 
+TEST_CASE("a planar sensor takes no notice of a landmark's height", "[world]") {
+  for (const double parallax : {0.0, 40.0}) {
+    sg::world::LandmarkGraph graph;
+    graph.sensor = sg::world::Sensor::bearing;
+    graph.poses = {{0, 0, 0}, {2, 0, 0}};
+    graph.landmarks = {{1, 1, 1000}};  // seen from above, at a right angle
+    graph.seen = {{0, 1, 2}, {0, 0}};
+    sg::world::keep_triangulated(graph, {.observations = 2, .parallax = parallax});
+    CHECK(graph.landmarks.size() == 1);
+  }
+}
+
+TEST_CASE("without a wanted parallax one direction will do", "[world]") {
+  sg::world::LandmarkGraph graph;
+  graph.sensor = sg::world::Sensor::bearing;
+  graph.poses = {{0, 0, 0}, {1, 0, 0}};
+  graph.landmarks = {{5, 0, 0}};
+  graph.seen = {{0, 1, 2}, {0, 0}};
+  sg::world::keep_triangulated(graph, {.observations = 2, .parallax = 0});
+  CHECK(graph.landmarks.size() == 1);
+}
+
 TEST_CASE("worst joins every landmark to every pose", "[world]") {
   for (const sg::world::Sensor sensor : sensors) {
     sg::world::Worst world;
@@ -444,6 +466,8 @@ TEST_CASE("numbers are rounded to nine digits after the point", "[world]") {
   CHECK(written(1234.0000000004) == " 1234");
   CHECK(written(-0.123456789499) == " -0.123456789");
   CHECK(written(8999999.125) == " 8999999.125");
+  CHECK(written(8999999.999) == " 8999999.999");
+  CHECK(written(9e6) == " 9e+06");
   CHECK(written(1e20) == " 1e+20");
   sg::world::Random random = sg::world::random_stream(1, sg::world::Stream::structure);
   for (int i = 0; i < 10000; ++i) {
