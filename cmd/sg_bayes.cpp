@@ -11,6 +11,7 @@ namespace {
 // A Bayes tree with the ids of its variables, which take the space of all cliques together.
 struct NamedTree {
   const Graph& graph;
+  std::string label;  // of the order
   graph::GraphPattern variables;
   graph::Order order;
   elim::BayesTree tree;
@@ -28,15 +29,17 @@ struct NamedTree {
   }
 };
 
-NamedTree named_tree(const cmd::DrawingOptions& options, const Graph& graph) {
+NamedTree named_tree(const cmd::DrawingOptions& options, const Graph& graph,
+                     const cmd::Method& method) {
   graph::GraphPattern variables = graph::graph_pattern(graph);
-  graph::Order order = cmd::named_order(options.method, graph, variables).order;
+  graph::Order order = cmd::order_by(method, options.method, graph, variables);
   elim::BayesTree tree = elim::bayes_tree(elim::symbolic(variables.pattern, order));
   std::vector<Index> depth(tree.cliques(), 0);
   for (Index c = 0; c < tree.cliques(); ++c) {
     if (tree.parent[c] >= 0) depth[c] = depth[tree.parent[c]] + 1;
   }
-  return {graph, std::move(variables), std::move(order), std::move(tree), std::move(depth)};
+  return {graph,           method.label,    std::move(variables), std::move(order),
+          std::move(tree), std::move(depth)};
 }
 
 // The ids of variables at these positions, in elimination order.
@@ -53,6 +56,7 @@ struct Row {
   NamedTree& named;
   Index clique;
 
+  const NamedTree& subject() const { return named; }
   cmd::IdList frontal() const { return ids(named, named.frontals()[clique]); }
   cmd::IdList separator() const { return ids(named, named.separators()[clique]); }
   std::int64_t frontal_dim() const { return named.tree.frontal_dim[clique]; }
@@ -63,7 +67,7 @@ struct Row {
   }
 };
 
-const std::vector<cmd::Column<Row>> columns{
+const std::vector<cmd::Column<Row>> columns = cmd::with_subject<Row>({
     {"clique", "Its number, from 0", &Row::clique},
     {"parent", "The clique above; empty at a root", &Row::parent},
     {"depth", "Cliques above it", [](Row& row) { return row.named.depth[row.clique]; }},
@@ -74,7 +78,7 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return row.total_dim() - row.frontal_dim(); }},
     {"cost", "d_f (d_f + d_s)^2; the sum is the tree's elimination complexity",
      [](Row& row) { return elim::elimination_cost(row.frontal_dim(), row.total_dim()); }},
-};
+});
 
 void print_dot(NamedTree& named, cmd::Output& output) {
   output.write("digraph bayes_tree {\n  node [shape=box, style=rounded];\n");
@@ -89,18 +93,17 @@ void print_dot(NamedTree& named, cmd::Output& output) {
   output.write("}\n");
 }
 
-void show(const cmd::Command& /*command*/, const cmd::DrawingOptions& options) {
-  cmd::check(options.method);
-  const Graph graph = cmd::read(options.input);
-  cmd::stage("eliminate");
-  NamedTree named = named_tree(options, graph);
+void show(const cmd::Command& command, const cmd::DrawingOptions& options) {
+  cmd::check_drawing(command, options);
   cmd::Output output(options.output.path);
-  if (options.dot) {
-    print_dot(named, output);
-  } else {
-    cmd::Table table(options.table, columns, {}, output);
-    for (Index c = 0; c < named.tree.cliques(); ++c) table.row({named, c});
-  }
+  std::optional<cmd::Table<Row>> table;
+  if (!options.dot) table.emplace(options.table, columns, cmd::given(options), output);
+  cmd::each_elimination(options, [&](const Graph& graph, const cmd::Method& method) {
+    cmd::stage("eliminate");
+    NamedTree named = named_tree(options, graph, method);
+    if (options.dot) return print_dot(named, output);
+    for (Index c = 0; c < named.tree.cliques(); ++c) table->row({named, c});
+  });
   output.commit();
 }
 

@@ -1,4 +1,6 @@
 // sg-check: what is wrong with a graph, a line a finding.
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "cmd/common/command.h"
@@ -88,6 +90,8 @@ int check(const cmd::Command& command, const Options& options) {
   cmd::Table table({{}, true, true}, columns, {}, output);
   bool errors = false;
   for (const auto& path : options.inputs.paths) {
+    if (path == "-" && ::isatty(STDIN_FILENO))
+      throw text::usage_error("no graph: give a FILE or pipe one in");
     for (const Message& found : messages(path, options)) {
       errors = errors || found.severity == Severity::error;
       if (command.quiet && found.severity != Severity::error) continue;

@@ -57,10 +57,35 @@ std::vector<std::string> losses(const Options& options, const Graph& graph) {
   return said;
 }
 
-void convert(const cmd::Command& command, const Options& options) {
+// A name that promises another format.
+void check_ending(const Options& options) {
+  const std::string& path = options.output.path;
+  for (const formats::WriteFormat& other : formats::write_formats()) {
+    if (other.name != options.to && path.ends_with("." + std::string(other.name)))
+      throw text::usage_error("-o " + path + ": what is written is " + options.to + "; --to " +
+                              std::string(other.name) + " writes the other");
+  }
+  for (const char* packed : {".gz", ".zst", ".xz", ".bz2"}) {
+    if (path.ends_with(packed))
+      throw text::usage_error("-o " + path +
+                              ": nothing is written compressed; pipe it into a compressor");
+  }
+}
+
+// Without --to, the format that -o's name ends in, if any does.
+Options with_format(const cmd::Command& command, Options options) {
+  if (cmd::given(command.app, "--to")) return options;
+  for (const formats::WriteFormat& format : formats::write_formats()) {
+    if (options.output.path.ends_with("." + std::string(format.name))) options.to = format.name;
+  }
+  return options;
+}
+
+void convert(const cmd::Command& command, const Options& given) {
+  const Options options = with_format(command, given);
   const formats::WriteFormat& format = formats::find_write_format(options.to);
-  if (options.write.scalar && options.to != "mtx")
-    throw text::usage_error("--scalar belongs to --to mtx");
+  if (options.to != "mtx") cmd::refuse(command.app, {"--scalar"}, "without --to mtx");
+  check_ending(options);
   Graph graph = cmd::read(options.input);
   cmd::stage("convert");
   const std::vector<std::string> lost = losses(options, graph);
@@ -88,7 +113,10 @@ void add_options(cmd::Command& command, Options& options) {
   command.app.add_flag("--estimates", options.estimates,
                        "In an edges-only file: add VERTEX lines,\ncomposed along odometry");
   command.app.add_flag("--lossy", options.lossy, "Leave out what the format cannot hold");
-  cmd::add_output(command, options.output);
+  cmd::add_output(
+      command.app, options.output,
+      "Write to FILE, whole or not at all; without --to\nin the format that its name ends in",
+      cmd::Writes::other);
 }
 
 }  // namespace

@@ -22,24 +22,30 @@ struct Options {
 };
 
 // "A" or "A:B"; a usage Error for anything else.
-std::pair<Id, Id> parse_range(std::string_view text) {
+std::pair<Id, Id> parse_range(const std::string& option, std::string_view text) {
   const auto colon = text.find(':');
   const auto first = text::parse<Id>(text.substr(0, colon));
   const auto last = colon == text.npos ? first : text::parse<Id>(text.substr(colon + 1));
   if (!first || !last || *first < 0 || *last < *first)
-    throw text::usage_error("'" + std::string(text) + "' is no range FIRST:LAST");
+    throw text::usage_error(option + " " + std::string(text) + " is no range FIRST:LAST");
   return {*first, *last};
 }
 
 graph::Part ranges_of_ids(const Graph& graph, const std::vector<std::string>& ids) {
   std::vector<std::pair<Id, Id>> ranges;
   ranges.reserve(ids.size());
-  for (const auto& text : ids) ranges.push_back(parse_range(text));
+  for (const auto& text : ids) {
+    const auto [first, last] = parse_range("--ids", text);
+    const auto there = std::ranges::lower_bound(graph.id, first);
+    if (there == graph.id.end() || *there > last)
+      throw text::usage_error("--ids " + text + ": the graph has no such vertex");
+    ranges.emplace_back(first, last);
+  }
   return graph::of_ids(graph, ranges);
 }
 
 graph::Part range_of_poses(const Graph& graph, const std::string& text) {
-  const auto [first, last] = parse_range(text);
+  const auto [first, last] = parse_range("--range", text);
   const graph::PoseIndex poses = graph::pose_index(graph);
   const auto count = static_cast<Id>(poses.pose.size());
   if (first >= count)
@@ -64,11 +70,17 @@ graph::Part part(const Graph& graph, const Options& options) {
   return ranges_of_ids(graph, options.ids);
 }
 
-void check_call(const Options& options) {
-  const int parts = options.poses.has_value() + !options.range.empty() +
-                    options.component.has_value() + options.largest + !options.ids.empty();
-  if (parts != 1)
-    throw text::usage_error("one of --poses, --range, --component, --largest and --ids is needed");
+void check_call(const cmd::Command& command, const Options& options) {
+  cmd::exactly_one(command.app,
+                   {{"--poses", "keeps the first steps"},
+                    {"--range", "poses by index"},
+                    {"--component", "what is connected to a vertex"},
+                    {"--largest", "the largest connected part"},
+                    {"--ids", "vertices by id"}},
+                   "which part?");
+  if (!options.poses) cmd::refuse(command.app, {"--min-obs"}, "without --poses");
+  if (!options.range.empty()) parse_range("--range", options.range);
+  for (const auto& text : options.ids) parse_range("--ids", text);
 }
 
 void check_rest(const Graph& graph, const graph::Part& kept) {
@@ -80,7 +92,7 @@ void check_rest(const Graph& graph, const graph::Part& kept) {
 }
 
 void cut(const cmd::Command& command, const Options& options) {
-  check_call(options);
+  check_call(command, options);
   const Graph graph = cmd::read(options.input);
   cmd::stage("cut");
   graph::Part kept = part(graph, options);
@@ -102,11 +114,12 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_input(command, options.input);
   auto& app = command.app;
   app.add_option("--poses", options.poses, "Keep the first N steps of the replay")
-      ->check(CLI::PositiveNumber)
+      ->transform(cmd::whole(1))
       ->option_text("N");
   app.add_option("--range", options.range, "Keep poses FIRST to LAST by index, counted from 0")
       ->option_text("FIRST:LAST");
   app.add_option("--component", options.component, "Keep what is connected to vertex ID")
+      ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
       ->option_text("ID");
   app.add_flag("--largest", options.largest, "Keep the largest connected part");
   app.add_option("--ids", options.ids, "Keep these vertices and the edges among them")

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   cmd::add_input(command, options.input);
   command.app.add_option("-r,--rate", rate, "Keep pose index mod R = offset")
       ->type_name("R")
-      ->check(cmd::at_least_one())
+      ->transform(cmd::whole(1))
       ->required();
   command.app
       .add_option("--offset", offset,

@@ -174,12 +174,11 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
   cmd::add_methods(command, options.methods);
   auto& app = command.app;
-  auto* trace = app.add_flag("--trace", options.trace, "A row for every step of the growing graph")
-                    ->option_text(" ");
-  cmd::add_every(app, options.every, "With --trace:")->needs(trace);
-  cmd::add_entry(app, options.min_obs, "With --trace: a landmark")->needs(trace);
+  app.add_flag("--trace", options.trace, "A row for every step of the growing graph")
+      ->option_text(" ");
+  cmd::add_every(app, options.every, "With --trace:");
+  cmd::add_entry(app, options.min_obs, "With --trace: a landmark");
   app.add_flag("--per-vertex", options.per_vertex, "A row for every variable, in elimination order")
-      ->excludes(trace)
       ->option_text(" ");
   cmd::add_output(command, options.output);
   cmd::add_table(
@@ -187,7 +186,11 @@ void add_options(cmd::Command& command, Options& options) {
       {{"", cmd::headings(score_columns)}, {"With --per-vertex:", cmd::headings(vertex_columns)}});
 }
 
-void score(const cmd::Command& /*command*/, const Options& options) {
+void score(const cmd::Command& command, const Options& options) {
+  cmd::check_form(command.app);
+  cmd::at_most_one(command.app,
+                   {{"--trace", "prints a row a step"}, {"--per-vertex", "a row a variable"}});
+  if (!options.trace) cmd::refuse(command.app, {"--every", "--min-obs"}, "without --trace");
   cmd::check(options.methods);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
                          {"--trace", options.trace}};

@@ -17,6 +17,7 @@ constexpr Index most_variables = 150'000;
 struct Names {
   const Graph& graph;
   const graph::GraphPattern& variables;
+  std::string label;  // of the order
   Id operator()(Index j) const { return graph.id[variables.variable_vertex[j]]; }
 };
 
@@ -25,6 +26,7 @@ struct Row {
   const elim::EliminationStep& eliminated;
   std::size_t step;
 
+  const Names& subject() const { return id_of; }
   std::int64_t dim(Index j) const { return id_of.variables.pattern.dim[j]; }
   std::int64_t frontal() const { return dim(eliminated.variable); }
   std::int64_t separator() const {
@@ -44,7 +46,7 @@ struct Row {
   }
 };
 
-const std::vector<cmd::Column<Row>> columns{
+const std::vector<cmd::Column<Row>> columns = cmd::with_subject<Row>({
     {"step", "From 0", &Row::step},
     {"variable", "Id of the variable that goes",
      [](Row& row) { return row.id_of(row.eliminated.variable); }},
@@ -56,7 +58,7 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) {
        return elim::elimination_cost(row.frontal(), row.frontal() + row.separator());
      }},
-};
+});
 
 using Edge = std::pair<Index, Index>;  // of variables, first < second
 
@@ -116,28 +118,30 @@ void print_dot(const graph::Pattern& pattern, const Names& id_of, const graph::O
   output.write("}\n");
 }
 
-void show(const cmd::Command& /*command*/, const cmd::DrawingOptions& options) {
-  cmd::check(options.method);
-  const Graph graph = cmd::read(options.input);
-  cmd::stage("eliminate");
-  const graph::GraphPattern variables = graph::graph_pattern(graph);
-  const graph::Pattern& pattern = variables.pattern;
-  if (pattern.variables() > most_variables) {
-    throw text::input_error(graph.file, 0,
-                            std::to_string(pattern.variables()) +
-                                " variables are too many to simulate one by one (at most " +
-                                std::to_string(most_variables) + "); sg-ec scores any graph");
-  }
-  const graph::Order order = cmd::named_order(options.method, graph, variables).order;
-  const auto steps = elim::node_elimination(pattern, order);
-  const Names id_of{graph, variables};
+void check_size(const Graph& graph, const graph::Pattern& pattern) {
+  if (pattern.variables() <= most_variables) return;
+  throw text::input_error(graph.file, 0,
+                          std::to_string(pattern.variables()) +
+                              " variables are too many to simulate one by one (at most " +
+                              std::to_string(most_variables) + "); sg-ec scores any graph");
+}
+
+void show(const cmd::Command& command, const cmd::DrawingOptions& options) {
+  cmd::check_drawing(command, options);
   cmd::Output output(options.output.path);
-  if (options.dot) {
-    print_dot(pattern, id_of, order, steps, output);
-  } else {
-    cmd::Table table(options.table, columns, {}, output);
-    for (std::size_t k = 0; k < steps.size(); ++k) table.row({id_of, steps[k], k});
-  }
+  std::optional<cmd::Table<Row>> table;
+  if (!options.dot) table.emplace(options.table, columns, cmd::given(options), output);
+  cmd::each_elimination(options, [&](const Graph& graph, const cmd::Method& method) {
+    cmd::stage("eliminate");
+    const graph::GraphPattern variables = graph::graph_pattern(graph);
+    const graph::Pattern& pattern = variables.pattern;
+    check_size(graph, pattern);
+    const graph::Order order = cmd::order_by(method, options.method, graph, variables);
+    const auto steps = elim::node_elimination(pattern, order);
+    const Names id_of{graph, variables, method.label};
+    if (options.dot) return print_dot(pattern, id_of, order, steps, output);
+    for (std::size_t k = 0; k < steps.size(); ++k) table->row({id_of, steps[k], k});
+  });
   output.commit();
 }
 

@@ -1,4 +1,5 @@
 // sg-gen: generate the graph of a world; with --truth, the same without noise, too.
+#include <filesystem>
 #include <map>
 
 #include "cmd/common/command.h"
@@ -27,7 +28,19 @@ void add_files(CLI::App& app, Files& files) {
   cmd::add_filter_output(app, files.output);
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  const auto whole = [](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path));
+  };
+  if (a == "-" || b.empty() || b == "-") return a == "-" && (b.empty() || b == "-");
+  return whole(a) == whole(b) && (!fs::exists(a) || fs::is_regular_file(a));
+}
+
 void generate(const cmd::Command& command, const Files& files, const gen::Maker& maker) {
+  if (!files.truth.empty() && same_file(files.truth, files.output.path))
+    throw text::usage_error("--truth and -o are one file, '" + files.truth +
+                            "': each graph needs its own");
   cmd::stage("generate");
   const gen::Writer writer = maker();
   const std::string comment = cmd::trace_comment(command, files.output);
@@ -49,6 +62,7 @@ int main(int argc, char** argv) {
   cmd::Command command("sg-gen",
                        "Generate a graph. `sg-gen WORLD --help` lists a world's options.");
   Files files;
+  std::string worlds;
   std::map<const CLI::App*, gen::Maker> makers;
   command.app.require_subcommand(0, 1);  // what is left over then, a wrong world, is named
   command.app.get_formatter()->label("SUBCOMMAND", "WORLD");
@@ -56,10 +70,12 @@ int main(int argc, char** argv) {
     CLI::App* app =
         command.app.add_subcommand(world.name, world.what)->group("Worlds")->fallthrough();
     makers[app] = world.add(*app);
+    worlds += (worlds.empty() ? "" : ", ") + std::string(world.name);
     add_files(*app, files);
   }
   return cmd::run(command, argc, argv, [&] {
-    if (command.app.get_subcommands().empty()) throw text::usage_error("which WORLD?");
+    if (command.app.get_subcommands().empty())
+      throw text::usage_error("which WORLD? There are " + worlds);
     generate(command, files, makers.at(command.app.get_subcommands().front()));
   });
 }

@@ -95,15 +95,15 @@ void add_thresholds(CLI::App& app, solve::Isam2Options& isam) {
   app.add_option("--relinearize-threshold", isam.relinearize_threshold,
                  "Relinearize vertices X or more away (default: 0.1)")
       ->option_text("X")
-      ->check(CLI::NonNegativeNumber);
+      ->check(cmd::number(0));
   app.add_option("--relinearize-skip", isam.relinearize_skip,
                  "Do so in every N-th step; 0: never (default: 1)")
       ->option_text("N")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(cmd::whole(0));
   app.add_option("--wildfire-threshold", isam.wildfire_threshold,
                  "Pass on changes of X or more (default: 0.001)")
       ->option_text("X")
-      ->check(CLI::NonNegativeNumber);
+      ->check(cmd::number(0));
 }
 
 void add_options(cmd::Command& command, Options& options) {
@@ -119,12 +119,12 @@ void add_options(cmd::Command& command, Options& options) {
          "--init", [&options](const std::string& from) { options.from_file = from == "file"; },
          "Start from the edges (default) or the file")
       ->option_text("edges|file")
-      ->check(CLI::IsMember({"edges", "file"}));
+      ->check(cmd::one_of({"edges", "file"}));
   cmd::add_every(app, options.every, "A row for");
   app.add_flag("--colamd", options.colamd, "Add ec_colamd: the EC of the whole, by COLAMD");
   app.add_flag("--chi2", options.chi2, "Add chi2, at the estimate");
   app.add_flag("--batch", options.batch, "Add batch_s: time the elimination of the whole");
-  cmd::add_output(app, options.output, "Write the final graph to FILE");
+  cmd::add_output(app, options.output, "Write the final graph to FILE", cmd::Writes::graph);
   cmd::add_table(command, options.table, columns);
 }
 
@@ -169,6 +169,8 @@ void hold_at_first(const cmd::Command& command, factor::Problem& problem) {
 
 void run(const cmd::Command& command, const Options& options) {
   solve::kernels();  // a wrong call is told before a long read
+  cmd::check_form(command.app);
+  order::find_ordering(options.isam.ordering);
   cmd::Output output("");
   const cmd::Given given{
       {"--colamd", options.colamd}, {"--chi2", options.chi2}, {"--batch", options.batch}};

@@ -18,24 +18,24 @@ struct Options {
 };
 
 void add_options(cmd::Command& command, Options& options) {
-  const auto positive = CLI::PositiveNumber.description("");
   cmd::add_input(command, options.pruning.input);
   command.app.add_option("-r,--rate", options.rule.rate, "Every R-th pose stays")
       ->type_name("R")
-      ->check(cmd::at_least_one());
+      ->transform(cmd::whole(1));
   command.app
       .add_option("--dist", options.rule.distance, "A keyframe every D metres travelled, or")
       ->type_name("D")
-      ->check(positive);
+      ->check(cmd::above_zero());
   command.app.add_option("--angle", options.degrees, "every A degrees turned")
       ->type_name("A")
-      ->check(positive);
+      ->check(cmd::above_zero());
   command.app
       .add_option(
           "--loops", options.loops,
           "Loop closures of dropped poses: move to the\nnearest keyframe (default), or drop")
       ->option_text("FATE")
       ->check(cmd::one_of({"move", "drop"}));
+  cmd::add_unused_seed(command.app);
   cmd::add_pruned_output(command, options.pruning);
 }
 
@@ -51,6 +51,11 @@ void report(const cmd::Command& command, const prune::Keyframing& keyframing) {
 }
 
 void run(const cmd::Command& command, const Options& options) {
+  constexpr auto question = "how many keyframes?";
+  cmd::at_most_one(command.app, {{"-r", "keeps every R-th pose"}, {"--dist", "one every D metres"}},
+                   question);
+  cmd::at_most_one(command.app,
+                   {{"-r", "keeps every R-th pose"}, {"--angle", "one every A degrees"}}, question);
   prune::KeyframeRule rule = options.rule;
   rule.angle = options.degrees * std::numbers::pi / 180;
   const bool travelled = rule.distance > 0 || rule.angle > 0;

@@ -30,16 +30,15 @@ void add_options(cmd::Command& command, Options& options) {
   auto& app = command.app;
   std::vector<std::string> methods;
   for (const order::Ordering& ordering : order::orderings()) methods.emplace_back(ordering.name);
-  auto* method =
-      app.add_option("-m,--method", options.method,
-                     cmd::wrapped_list("Default: " + options.method + "; one of ", methods, ", "))
-          ->option_text("METHOD");
+  app.add_option("-m,--method", options.method,
+                 cmd::wrapped_list("Default: " + options.method + "; one of ", methods, ", "))
+      ->option_text("METHOD");
   app.add_option("--apply", options.apply, "Take the order from FILE: ids in its first column")
-      ->option_text("FILE")
-      ->excludes(method);
+      ->option_text("FILE");
   app.add_option("--last", options.last, "Eliminate these vertices after all others")
       ->option_text("ID,...")
       ->delimiter(',')
+      ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
       ->allow_extra_args(false);
   cmd::add_seed(app, options.seed, "Seed of methods that draw or break ties");
   app.add_option("--budget", options.budget, "Of best: seconds, or Nt for N tries (default: 200t)")
@@ -140,6 +139,11 @@ void write_graph(const cmd::Command& command, const Options& options, const Grap
 }
 
 void run(const cmd::Command& command, const Options& options) {
+  const CLI::App& app = command.app;
+  cmd::at_most_one(app, {{"-m", "computes an order"}, {"--apply", "takes the one of a file"}});
+  if (!options.apply.empty()) cmd::refuse(app, {"--seed"}, "with --apply");
+  if (options.method != "best") cmd::refuse(app, {"--budget"}, "without -m best");
+  if (options.print) cmd::refuse(app, {"--no-trace-comment"}, "with --print");
   order::find_ordering(options.method);  // before a long read
   order::parse_budget(options.budget);
   if (options.apply == "-" && options.input.path == "-") {

@@ -40,12 +40,12 @@ void add_options(cmd::Command& command, Options& options) {
       ->option_text("PLANE");
   app.add_option("--width", options.size.width,
                  "Of the picture, in points or pixels (default: 600)")
-      ->check(CLI::Range(64, 20000).description(""))
+      ->transform(cmd::whole(64, 20000))
       ->option_text("N");
   app.add_option("--height", options.size.height, "The same (default: 600)")
-      ->check(CLI::Range(64, 20000).description(""))
+      ->transform(cmd::whole(64, 20000))
       ->option_text("N");
-  cmd::add_output(command, options.output);
+  cmd::add_output(app, options.output, "Write to FILE, whole or not at all", cmd::Writes::other);
 }
 
 void draw(cairo_t* page, const Options& options, const Graph& graph) {
@@ -64,9 +64,12 @@ void draw(cairo_t* page, const Options& options, const Graph& graph) {
   plot::draw_tree(page, options.size, elim::symbolic(variables.pattern, order));
 }
 
-void run(const cmd::Command& /*command*/, const Options& options) {
+void run(const cmd::Command& command, const Options& options) {
+  if (options.what != "map")
+    cmd::refuse(command.app, {"--cost", "--plane"}, "on a " + options.what + ", only on a map");
+  if (options.what == "map" && !options.cost)
+    cmd::refuse(command.app, {"-m", "--seed"}, "on a map without --cost");
   const plot::PictureFormat format = plot::picture_format(options.output.path);
-  if (options.cost && options.what != "map") throw text::usage_error("--cost belongs to map");
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);
   cmd::stage("draw");

@@ -1,7 +1,6 @@
 // sg-predict: what pruning at a rate r should cost, by the closed forms of the paper.
-#include <cmath>
-
 #include "cmd/common/command.h"
+#include "cmd/common/options.h"
 #include "cmd/common/table.h"
 #include "lib/elim/predict.h"
 #include "lib/text/error.h"
@@ -10,6 +9,8 @@
 using namespace sg;
 
 namespace {
+
+constexpr std::int64_t most_counted = 1'000'000'000'000;
 
 struct Options {
   cmd::Input input{"", {}};
@@ -63,26 +64,24 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_option("-r,--rate", options.rates, "Rates of pruning, 1 or more (default: 1)")
       ->option_text("R,...")
       ->delimiter(',')
+      ->check(cmd::number(1))
       ->allow_extra_args(false);
-  auto* poses = app.add_option("--poses", options.poses, "Number of poses, instead of a graph")
-                    ->option_text("N")
-                    ->check(CLI::PositiveNumber)
-                    ->excludes(app.get_option("FILE"));
+  app.add_option("--poses", options.poses, "Number of poses, instead of a graph")
+      ->option_text("N")
+      ->transform(cmd::whole(1, most_counted));
   app.add_option("--landmarks", options.landmarks, "Number of landmarks (default: 0)")
       ->option_text("N")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(poses);
+      ->transform(cmd::whole(0, most_counted));
   const auto add_dim = [&](const std::string& name, int& dim, const std::string& of) {
     app.add_option(name, dim, "Dimension of a " + of + " (default: " + std::to_string(dim) + ")")
         ->option_text("D")
-        ->check(CLI::PositiveNumber)
-        ->needs(poses);
+        ->transform(cmd::whole(1));
   };
   add_dim("--pose-dim", options.pose_dim, "pose");
   add_dim("--landmark-dim", options.landmark_dim, "landmark");
   app.add_option("--ec", options.ec, "EC of the unpruned graph, to be scaled")
       ->option_text("EC")
-      ->check(CLI::PositiveNumber);
+      ->check(cmd::above_zero());
   cmd::add_output(command, options.output);
   cmd::add_table(command, options.table, columns);
 }
@@ -111,9 +110,14 @@ std::optional<elim::Sizes> sizes_of(const cmd::Command& command, const Options& 
 }
 
 void predict(const cmd::Command& command, const Options& options) {
-  for (const double r : options.rates) {
-    if (!(r >= 1) || std::isinf(r)) throw text::usage_error("-r wants a rate of 1 or more");
-  }
+  const CLI::App& app = command.app;
+  cmd::check_form(app);
+  cmd::at_most_one(app, {{"--poses", "counts without a graph"}, {"FILE", "is a graph"}});
+  if (!options.poses)
+    cmd::refuse(app, {"--landmarks", "--pose-dim", "--landmark-dim"}, "without --poses");
+  if (options.poses || (options.ec && options.input.path.empty()))
+    cmd::refuse(app, {"--from", "--vertex", "--edge", "--params", "--alias", "--skip-unknown"},
+                "where no graph is read");
   const bool sized = options.poses || !options.ec || !options.input.path.empty();
   cmd::Output output(options.output.path);
   cmd::Table table(options.table, columns,

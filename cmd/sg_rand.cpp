@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   cmd::add_seed(command.app, seed, "Seed of the choice");
   cmd::add_pruning(command, options);
   return cmd::run(command, argc, argv, [&] {
+    cmd::check_amount(command);
     cmd::prune(command, options, cmd::asks_to_prune(amount), [&](const cmd::Prunable& from) {
       const auto count = cmd::kept_count(amount, from, options.input.options);
       return prune::sample(from.candidates.size(), count, seed);

@@ -89,7 +89,7 @@ void add_options(cmd::Command& command, Options& options) {
                   "Move onto it: se (rigidly; the default), sim (and\nscale), none")
       ->option_text("HOW")
       ->check(cmd::one_of({"se", "sim", "none"}));
-  cmd::add_method(command, options.method);
+  cmd::add_methods(command, options.method);
   cmd::add_output(command, options.output);
   cmd::add_table(command, options.table, columns);
 }
@@ -126,6 +126,8 @@ void warn_of_reference(const cmd::Command& command, const Options& options, cons
 }
 
 void run(const cmd::Command& command, const Options& options) {
+  cmd::check_form(command.app);
+  if (options.reference.empty()) cmd::refuse(command.app, {"--align"}, "without --reference");
   cmd::check(options.method);
   check_columns(options);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
@@ -141,8 +143,9 @@ void run(const cmd::Command& command, const Options& options) {
     const Graph graph = cmd::read(options.inputs, path);
     cmd::stage("score");
     if (reference) warn_of_reference(command, options, graph, *reference);
-    const cmd::Method method = cmd::methods(options.method, graph).front();
-    table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
+    for (const cmd::Method& method : cmd::methods(options.method, graph)) {
+      table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
+    }
   }
   output.commit();
 }

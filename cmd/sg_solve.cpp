@@ -11,6 +11,7 @@
 #include "cmd/common/command.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
+#include "cmd/common/options.h"
 #include "cmd/common/table.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
@@ -77,25 +78,25 @@ void add_options(cmd::Command& command, Options& options) {
          "-i,--iterations", options.iterations,
          "At most N iterations, and write what they reach\n(default: 100, which have to converge)")
       ->option_text("N")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(cmd::whole(0));
   app.add_option("--tolerance", options.tolerance,
                  "Least relative change of chi-square (default: 1e-9)")
       ->option_text("X")
-      ->check(CLI::NonNegativeNumber);
+      ->check(cmd::number(0));
   app.add_option("--kernel", options.kernel, "Robust kernel huber or cauchy, of width W")
       ->option_text("NAME:W");
-  cmd::add_method(command, options.method);
+  cmd::add_methods(command, options.method);
   app.add_option("--backend", options.backend, "Eliminate by " + solve::backend_names())
       ->option_text("NAME");
   app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
       ->option_text("N")
-      ->check(CLI::PositiveNumber);
+      ->transform(cmd::whole(1, 4096));
   app.add_flag("--init", options.from_edges, "Start from the edges alone, not from the file");
   app.add_flag("--keep", options.keep, "Write the graph even if it did not converge");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
-      ->check(CLI::PositiveNumber);
+      ->transform(cmd::whole(1));
   cmd::add_filter_output(command, options.output);
   cmd::add_table(command, options.table, time_columns);
 }
@@ -138,17 +139,9 @@ double median(std::vector<double> times) {
   return *middle;
 }
 
-void print_times(const Options& options, const factor::Problem& problem,
-                 const factor::Values& values) {
-  cmd::Output output(options.output.path);
-  cmd::Table table(options.table, time_columns, {}, output);
-  cmd::stage("order");
-  const auto [label, order] = named_order(options, *problem.graph);
-  cmd::finish_first();
-  cmd::stage("eliminate", options.runs);
+Timing timed(const Options& options, const factor::Problem& problem, const factor::Values& values,
+             factor::LinearSystem& system, const std::string& label, const graph::Order& order) {
   const graph::Pattern& pattern = problem.variables.pattern;
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, parse_kernel(options.kernel), system);
   const auto start = std::chrono::steady_clock::now();
   const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
   const double plan = seconds_since(start);
@@ -159,12 +152,34 @@ void print_times(const Options& options, const factor::Problem& problem,
     if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
     times.push_back(seconds_since(begin));
   }
-  table.row({label, options.backend, options.threads, pattern.variables(), problem.graph->edges(),
-             elim::elimination_complexity(pattern, order), static_cast<int>(times.size()), plan,
-             median(times)});
-  output.commit();
+  return {label,
+          options.backend,
+          options.threads,
+          pattern.variables(),
+          problem.graph->edges(),
+          elim::elimination_complexity(pattern, order),
+          static_cast<int>(times.size()),
+          plan,
+          median(times)};
 }
 
+void print_times(const Options& options, const factor::Problem& problem,
+                 const factor::Values& values) {
+  cmd::Output output(options.output.path);
+  cmd::Table table(options.table, time_columns, {}, output);
+  factor::LinearSystem system = factor::make_linear_system(problem);
+  factor::linearize(problem, values, parse_kernel(options.kernel), system);
+  const graph::GraphPattern variables =
+      graph::graph_pattern(*problem.graph);  // without the gauge's row
+  cmd::finish_first();
+  for (const cmd::Method& method : cmd::methods(options.method, *problem.graph)) {
+    cmd::stage("order");
+    const graph::Order order = cmd::order_by(method, options.method, *problem.graph, variables);
+    cmd::stage("eliminate", options.runs);
+    table.row(timed(options, problem, values, system, method.label, order));
+  }
+  output.commit();
+}
 void print_iteration(const solve::Iteration& iteration) {
   std::string line = std::to_string(iteration.number);
   for (const double number : {iteration.chi2, iteration.lambda, iteration.step})
@@ -248,11 +263,24 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   tell(command, result, seconds_since(begin));
 }
 
+void check_call(const cmd::Command& command, const Options& options) {
+  const CLI::App& app = command.app;
+  cmd::check_form(app);
+  cmd::at_most_one(app, {{"--chi2", "prints the chi-square"}, {"--time", "times eliminations"}});
+  const std::initializer_list<const char*> optimizing{"--gn", "-i", "--tolerance", "--keep",
+                                                      "--no-trace-comment"};
+  if (options.chi2) cmd::refuse(app, optimizing, "with --chi2, which does not optimize");
+  if (options.runs > 0) cmd::refuse(app, optimizing, "with --time, which does not optimize");
+  if (options.chi2)
+    cmd::refuse(app, {"-m", "--seed", "--backend", "-j"}, "with --chi2, which eliminates nothing");
+  if (options.runs == 0) cmd::refuse_table(app, "without --time");
+  if (options.runs == 0 && options.method.names.size() > 1)
+    throw text::usage_error("-m: one ordering to optimize by; several are compared by --time");
+}
+
 void run(const cmd::Command& command, const Options& options) {
   parse_kernel(options.kernel);  // a wrong call is told before a long read
-  if (options.chi2 && options.runs > 0) throw text::usage_error("--chi2 or --time, not both");
-  if (options.keep && (options.chi2 || options.runs > 0))
-    throw text::usage_error("--keep belongs to optimizing, not to --chi2 or --time");
+  check_call(command, options);
   solve::find_backend(options.backend);
   cmd::check(options.method);
   solve::kernels();

@@ -33,7 +33,7 @@ const std::vector<cmd::Column<Row>> columns{
     {"kept", "How many are kept by then", &Row::kept},
     {"first", "Id of the edge's first vertex", [](Row& row) { return row.end(0); }},
     {"second", "Id of its second vertex", [](Row& row) { return row.end(1); }},
-    {"joins", "1 where it joins two parts, else 0", [](Row& row) { return row.accepted.joins; }},
+    {"joins", "yes where it joins two parts, else no", [](Row& row) { return row.accepted.joins; }},
     {"gain", "By how much it raises the criterion", [](Row& row) { return row.accepted.gain; }},
     {"log_trees", "The criterion after it: log t(G), or that of dopt",
      [](Row& row) { return row.accepted.criterion; }},
@@ -48,6 +48,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->expected(0, 1)
       ->option_text("[N]");
   command.app.add_flag("--trace", options.trace, "Print a row an edge kept, instead of the graph");
+  cmd::add_unused_seed(command.app);
   cmd::add_pruning(command, options.pruning);
   cmd::add_table(command, options.table, columns);
 }
@@ -58,8 +59,8 @@ std::optional<Index> online_steps(const Options& options, std::string& path) {
   std::string word = *options.online;
   if (!word.empty() && !text::parse<double>(word) && path == "-") path = std::exchange(word, "");
   if (word.empty()) return 1;
-  if (const std::string cause = cmd::at_least_one()(word); !cause.empty())
-    throw text::usage_error("--online: " + cause);
+  if (const std::string cause = cmd::whole(1)(word); !cause.empty())
+    throw text::usage_error("--online " + cause);
   return text::parse<Index>(word);
 }
 
@@ -96,6 +97,11 @@ void warn_of_parts(const cmd::Command& command, const Graph& graph, const graph:
 }
 
 void run(const cmd::Command& command, const Options& options) {
+  cmd::check_amount(command);
+  cmd::check_form(command.app);
+  if (!options.trace) cmd::refuse_table(command.app, "without --trace");
+  if (options.trace && options.pruning.output.path.empty())
+    cmd::refuse(command.app, {"--no-trace-comment", "--min-obs"}, "with --trace and no -o");
   cmd::PruneOptions pruning = options.pruning;
   const std::optional<Index> online = online_steps(options, pruning.input.path);
   const cmd::Prunable from = cmd::read_prunable(pruning);

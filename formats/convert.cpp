@@ -11,6 +11,7 @@
 #include "formats/toro.h"
 #include "formats/tum.h"
 #include "lib/text/error.h"
+#include "lib/text/nearest.h"
 
 namespace sg::formats {
 namespace {
@@ -67,12 +68,10 @@ std::span<const WriteFormat> write_formats() {
 }
 
 const WriteFormat& find_write_format(std::string_view name) {
-  std::string known;
   for (const WriteFormat& format : formats) {
     if (format.name == name) return format;
-    known += (known.empty() ? "" : ", ") + std::string(format.name);
   }
-  throw text::usage_error("unknown format '" + std::string(name) + "'; there are " + known);
+  throw text::usage_error(text::no_such("format", name, text::names_of(formats)));
 }
 
 }  // namespace sg::formats

@@ -11,6 +11,7 @@
 #include "formats/toro.h"
 #include "formats/translate.h"
 #include "formats/tum.h"
+#include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
 namespace sg::formats {
@@ -39,12 +40,10 @@ constexpr std::array formats{
 };
 
 const ReadFormat& named(std::string_view name) {
-  std::string known;
   for (const ReadFormat& format : formats) {
     if (format.name == name) return format;
-    known += (known.empty() ? "" : ", ") + std::string(format.name);
   }
-  throw text::usage_error("unknown format '" + std::string(name) + "'; there are " + known);
+  throw text::usage_error(text::no_such("format", name, text::names_of(formats)));
 }
 
 const ReadFormat& told_by_content(std::string_view text) {
@@ -109,6 +108,10 @@ void refuse_other_files(std::string_view text, const std::string& file) {
 
 std::span<const ReadFormat> read_formats() {
   return formats;
+}
+
+void check_format(std::string_view name) {
+  named(name);
 }
 
 const ReadFormat& find_format(const ReadOptions& options, std::string_view text) {

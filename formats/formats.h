@@ -53,6 +53,8 @@ struct ReadFormat {
   std::string (*to_g2o)(std::string_view text, const std::string& file, const Complaint& complaint);
 };
 std::span<const ReadFormat> read_formats();
+// Throws a usage Error that lists the formats for a name that is none.
+void check_format(std::string_view name);
 // The one that options name or that the content tells. Throws a usage Error for a name that is none,
 // with those there are, and for one that no line of the text agrees with.
 const ReadFormat& find_format(const ReadOptions& options, std::string_view text);

@@ -26,7 +26,8 @@ std::string shell_quoted(const std::string& word) {
 
 void add_read_options(Command& command, formats::ReadOptions& options) {
   command.app.add_option("--from", options.format, "Input format; told by content otherwise")
-      ->option_text("FORMAT");
+      ->option_text("FORMAT")
+      ->each([](const std::string& name) { formats::check_format(name); });
   command.app
       .add_option("--vertex", options.vertex_types,
                   "Teach a vertex tag; ROLE: pose, landmark, other")
@@ -47,8 +48,21 @@ void add_read_options(Command& command, formats::ReadOptions& options) {
   options.warning = [&command](const std::string& text) { warn(command, text); };
 }
 
+// A message is one line, whatever the name of a file has.
+std::string one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n' || c == '\r' || c == '\t' || c == '\x1b') {
+      line += c == '\n' ? "\\n" : c == '\r' ? "\\r" : c == '\t' ? "\\t" : "\\e";
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
 int report(const Command& command, const text::Error& error) {
-  print_error(command.name + ": " + text::message(error) + "\n");
+  print_error(command.name + ": " + one_line(text::message(error)) + "\n");
   return static_cast<int>(error.fault);
 }
 
@@ -62,14 +76,43 @@ text::Error out_of_memory() {
 }
 
 int usage_failure(const Command& command, const std::string& cause) {
-  print_error(command.name + ": " + cause + " (see " + command.name + " --help)\n");
+  print_error(command.name + ": " + one_line(cause) + " (see " + command.name + " --help)\n");
   return static_cast<int>(text::Fault::usage);
 }
 
-// CLI11 spells out the limits of double, 309 digits, where any number above 0 would do.
-std::string readable(std::string cause) {
-  if (cause.find(" to 17976931348623157") == cause.npos) return cause;
-  return cause.substr(0, cause.find(" not in range")) + " is out of range";
+// What a call writes to -o, as the ending of a file's name would say it; empty where that says nothing.
+std::string written(const CLI::App& app, Writes writes) {
+  if (writes == Writes::other) return "";
+  const bool asked = given(app, "--time") || given(app, "--chi2") || given(app, "--print");
+  if (writes == Writes::graph && !asked) return "g2o";
+  if (given(app, "--json")) return "json";
+  return given(app, "--dot") ? "dot" : "tsv";
+}
+
+// A name that promises something else than what it would get: a file nobody can open later.
+std::string wrong_ending(const std::string& path, const std::string& writes) {
+  const auto dot = path.rfind('.');
+  if (writes.empty() || dot == path.npos || path.find('/', dot) != path.npos) return "";
+  const std::string ending = path.substr(dot + 1);
+  const auto is_one_of = [&](std::initializer_list<const char*> endings) {
+    return std::ranges::find(endings, ending) != endings.end();
+  };
+  if (ending == writes) return "";
+  if (is_one_of({"gz", "zst", "xz", "bz2"}))
+    return path + ": nothing is written compressed; pipe it into a compressor";
+  const std::string what = writes == "g2o"   ? "g2o text"
+                           : writes == "tsv" ? "a table"
+                           : writes == "dot" ? "text for Graphviz"
+                                             : "JSON";
+  const std::string cause = path + ": what is written is " + what;
+  if (is_one_of({"toro", "isam", "bal", "tum", "mtx", "metis", "dot"}) && writes == "g2o")
+    return cause + "; sg-convert --to " + ending + " writes the other";
+  if (ending == "json" && writes == "tsv") return cause + "; --json makes it JSON";
+  if (ending == "tsv" && writes == "json") return cause + "; without --json it is a table";
+  return is_one_of(
+             {"g2o", "toro", "isam", "bal", "tum", "kitti", "mtx", "metis", "dot", "json", "tsv"})
+             ? cause
+             : "";
 }
 
 // Prints --help or --version, whose text is an output like any other.
@@ -126,13 +169,11 @@ int run_status(Command& command, int argc, char** argv, const std::function<int(
   for (int k = 1; k < argc; ++k) command.call += " " + shell_quoted(argv[k]);
   const int status = guarded(command, [&] {
     try {
-      command.app.parse(argc, argv);
+      parse(command.app, argc, argv);
     } catch (const CLI::CallForHelp&) {
       return print(command.app.help());
     } catch (const CLI::CallForVersion& version) {
       return print(std::string(version.what()) + "\n");
-    } catch (const CLI::ParseError& error) {
-      return usage_failure(command, readable(error.what()));
     }
     begin_stages(command.name, command.quiet, command.verbose);
     return work();
@@ -143,7 +184,7 @@ int run_status(Command& command, int argc, char** argv, const std::function<int(
 }
 
 void warn(const Command& command, const std::string& text) {
-  if (!command.quiet) print_error(command.name + ": " + text + "\n");
+  if (!command.quiet) print_error(command.name + ": " + one_line(text) + "\n");
 }
 
 void add_input(Command& command, Input& input) {
@@ -206,14 +247,20 @@ void add_filter_output(Command& command, OutputOptions& output) {
 }
 
 void add_filter_output(CLI::App& app, OutputOptions& output) {
-  add_output(app, output);
+  add_output(app, output, "Write to FILE, whole or not at all", Writes::graph);
   app.add_flag_callback(
       "--no-trace-comment", [&output] { output.trace_comment = false; },
       "Leave no comment of this call");
 }
 
-void add_output(CLI::App& app, OutputOptions& output, const std::string& what) {
-  app.add_option("-o,--output", output.path, what)->option_text("FILE")->each(check_output);
+void add_output(CLI::App& app, OutputOptions& output, const std::string& what, Writes writes) {
+  app.add_option("-o,--output", output.path, what)
+      ->option_text("FILE")
+      ->check(CLI::Validator(
+          [&app, writes](const std::string& path) {
+            return wrong_ending(path, written(app, writes));
+          },
+          ""));
 }
 
 void add_output(Command& command, OutputOptions& output) {

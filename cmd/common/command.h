@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "cmd/common/call.h"
 #include "cmd/common/output.h"
 #include "cmd/common/stage.h"
 #include "formats/formats.h"
@@ -76,8 +77,11 @@ struct OutputOptions {
   std::string path;
   bool trace_comment = true;
 };
+// A name whose ending (.g2o, .toro, .json, .gz) promises something else than what is written is a usage error.
+enum class Writes { graph, table, other };
 void add_output(CLI::App& app, OutputOptions& output,
-                const std::string& what = "Write to FILE, whole or not at all");
+                const std::string& what = "Write to FILE, whole or not at all",
+                Writes writes = Writes::table);
 void add_output(Command& command, OutputOptions& output);
 void add_filter_output(Command& command, OutputOptions& output);
 void add_filter_output(CLI::App& app, OutputOptions& output);  // of one of a command's jobs

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,14 +12,19 @@
 
 namespace sg::cmd {
 
-// CLI11's checks, of a number that has to be 1 or more and of a word among some, that add nothing to
-// the help.
-CLI::Validator at_least_one();
+// Checks of an option's value, which add nothing to the help. What they say begins with the value; parse() (call.h) puts
+// the option before it. A whole number may be written 1e5 or 100000.0 and is rewritten as 100000: ->transform(whole(1)).
+CLI::Validator whole(std::int64_t least = 0, std::int64_t most = std::numeric_limits<Index>::max());
+CLI::Validator number(double least = 0, double most = std::numeric_limits<double>::infinity());
+CLI::Validator above_zero();
 CLI::Validator one_of(const std::vector<std::string>& words);
 
 // --seed N. Orderings have 0, which draws nothing where ties can do without; what is made by drawing
 // has 1.
-void add_seed(CLI::App& app, std::uint64_t& seed, const std::string& what);
+CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& what);
+
+// The same of a pruning command that draws nothing: whoever sweeps over commands need not know.
+void add_unused_seed(CLI::App& app);
 
 // A replay's --min-obs M: "a landmark enters with its M-th observation"; `who` begins the sentence.
 CLI::Option* add_entry(CLI::App& app, Index& min_obs, const std::string& who);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -32,6 +33,9 @@ class Output final : public formats::Sink {
   // After an interruption, what rows there are take the file's name, too.
   void keep_rows();
   void commit();
+
+  bool terminal() const;                // whether it goes to one
+  std::function<void()> before_commit;  // passes on what is held back (table.h)
 
  private:
   void open();

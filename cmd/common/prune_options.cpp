@@ -35,28 +35,31 @@ void add_pruned_output(Command& command, PruneOptions& options) {
   command.app
       .add_option("--min-obs", options.min_obs, "Landmarks with fewer observations go (default: 1)")
       ->option_text("M")
-      ->check(at_least_one());
+      ->transform(whole(1));
   add_filter_output(command, options.output);
 }
 
 void add_amount(Command& command, Amount& amount) {
-  const std::vector<CLI::Option*> ways{
-      command.app.add_option("-r,--rate", amount.rate, "How many candidates stay: one in R,")
-          ->type_name("R")
-          ->check(at_least_one()),
-      command.app.add_option("-p,--part", amount.fraction, "or this part of them (0 to 1),")
-          ->type_name("FRACTION")
-          ->check(CLI::Range(0.0, 1.0).description("")),
-      command.app.add_option("-k,--keep", amount.count, "or so many,")
-          ->type_name("COUNT")
-          ->check(CLI::NonNegativeNumber.description("")),
-      command.app.add_option("--like", amount.like, "or as many as FILE has")->type_name("FILE")};
-  command.app.parse_complete_callback([ways] {
-    const auto given =
-        std::count_if(ways.begin(), ways.end(), [](const auto* way) { return way->count() > 0; });
-    if (given != 1)
-      throw CLI::ValidationError("how many candidates stay? Give one of -r, -p, -k, --like");
-  });
+  CLI::App& app = command.app;
+  app.add_option("-r,--rate", amount.rate, "How many candidates stay: one in R,")
+      ->type_name("R")
+      ->transform(whole(1));
+  app.add_option("-p,--part", amount.fraction, "or this part of them (0 to 1),")
+      ->type_name("FRACTION")
+      ->check(number(0, 1));
+  app.add_option("-k,--keep", amount.count, "or so many,")
+      ->type_name("COUNT")
+      ->transform(whole(0, std::numeric_limits<std::int64_t>::max()));
+  app.add_option("--like", amount.like, "or as many as FILE has")->type_name("FILE");
+}
+
+void check_amount(const Command& command) {
+  exactly_one(command.app,
+              {{"-r", "keeps one in R"},
+               {"-p", "this part of them"},
+               {"-k", "so many"},
+               {"--like", "as many as FILE has"}},
+              "how many candidates stay?");
 }
 
 Prunable read_prunable(const PruneOptions& options) {

@@ -30,6 +30,7 @@ struct Amount {
   std::string like;
 };
 void add_amount(Command& command, Amount& amount);
+void check_amount(const Command& command);  // throws a usage Error
 
 // A graph about to be pruned.
 struct Prunable {

@@ -1,10 +1,14 @@
 #include "cmd/common/table.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cmd/common/options.h"
+#include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
 namespace sg::cmd {
@@ -26,6 +30,7 @@ std::string text(const Cell& cell) {
   struct Printer {
     std::string operator()(std::monostate) const { return ""; }
     std::string operator()(const std::string& word) const { return word; }
+    std::string operator()(bool flag) const { return flag ? "yes" : "no"; }
     std::string operator()(std::int64_t value) const { return std::to_string(value); }
     std::string operator()(elim::Wide value) const { return elim::to_string(value); }
     std::string operator()(double value) const { return text::format_number(value); }
@@ -41,35 +46,79 @@ std::string text(const Cell& cell) {
 
 namespace {
 
-// JSON has no infinities; integers of any length are its own numbers.
+// Common readers of JSON take numbers as doubles: a whole number that those don't hold exactly is a string.
+std::string json_of_whole(elim::Wide number) {
+  constexpr elim::Wide exact = elim::Wide{1} << 53;
+  const std::string digits = elim::to_string(number);
+  return number > exact ? '"' + digits + '"' : digits;
+}
+
+std::string json_of_id(std::int64_t id) {
+  return id < 0 ? text_of_id(id) : json_of_whole(static_cast<elim::Wide>(id));
+}
+
+// JSON has no infinities: they are null, as what is missing is.
 std::string json_of_cell(const Cell& cell) {
   const Cell::Value& value = cell.value;
   if (const auto* word = std::get_if<std::string>(&value)) return nlohmann::json(*word).dump();
   if (const auto* ids = std::get_if<IdList>(&value))
-    return "[" + joined(*ids, ", ", text_of_id) + "]";
+    return "[" + joined(*ids, ", ", json_of_id) + "]";
   if (const auto* pairs = std::get_if<IdPairs>(&value)) {
     return "[" +
            joined(*pairs, ", ",
                   [](const auto& pair) {
-                    return "[" + text_of_id(pair.first) + ", " + text_of_id(pair.second) + "]";
+                    return "[" + json_of_id(pair.first) + ", " + json_of_id(pair.second) + "]";
                   }) +
            "]";
   }
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* id = std::get_if<std::int64_t>(&value)) return json_of_id(*id);
+  if (const auto* wide = std::get_if<elim::Wide>(&value)) return json_of_whole(*wide);
   const auto* number = std::get_if<double>(&value);
   const bool missing =
       std::holds_alternative<std::monostate>(value) || (number && !std::isfinite(*number));
   return missing ? "null" : text(cell);
 }
 
-std::vector<std::string> names_of(const std::vector<Heading>& columns) {
-  std::vector<std::string> names;
-  names.reserve(columns.size());
-  for (const auto& column : columns) names.push_back(column.name);
-  return names;
+// A word in a table: a tab or the end of a line in it (a file's name may have them) would be one of the table's.
+std::string escaped(const std::string& word) {
+  if (word.find_first_of("\t\n\r\\") == word.npos) return word;
+  std::string result;
+  for (const char c : word) {
+    switch (c) {
+      case '\t':
+        result += "\\t";
+        break;
+      case '\n':
+        result += "\\n";
+        break;
+      case '\r':
+        result += "\\r";
+        break;
+      case '\\':
+        result += "\\\\";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
 }
 
-std::string joined(const std::vector<std::string>& words, std::string_view separator) {
-  return joined(words, separator, [](const std::string& word) { return word; });
+// What a row of a table has; for eyes, numbers that are not whole have six digits.
+std::string printed(const Cell& cell, bool rounded) {
+  if (const auto* word = std::get_if<std::string>(&cell.value)) return escaped(*word);
+  const auto* number = std::get_if<double>(&cell.value);
+  if (!number || !rounded) return text(cell);
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.6g", *number);
+  return digits;
+}
+
+bool is_number(const Cell& cell) {
+  return std::holds_alternative<std::int64_t>(cell.value) ||
+         std::holds_alternative<elim::Wide>(cell.value) ||
+         std::holds_alternative<double>(cell.value);
 }
 
 // What -f help prints: a line a column.
@@ -93,7 +142,7 @@ std::string meanings(const std::vector<NamedTable>& tables) {
 void add_table(Command& command, TableOptions& options, const std::vector<NamedTable>& tables) {
   command.app
       .add_option("-f,--fields", options.columns,
-                  wrapped_list("Columns: ", names_of(tables.front().columns), ","))
+                  wrapped_list("Columns: ", text::names_of(tables.front().columns), ","))
       ->delimiter(',')
       ->option_text("NAME,...|help")
       ->allow_extra_args(false)
@@ -103,16 +152,17 @@ void add_table(Command& command, TableOptions& options, const std::vector<NamedT
   command.app.add_flag_callback(
       "--no-header", [&options] { options.header = false; }, "No header line");
   command.app.add_flag("--json", options.json, "One JSON object a row");
+  command.app.add_flag("--tsv", options.tsv, "Tab-separated, on a terminal, too");
+  command.app.add_flag("--table", options.table, "Aligned and rounded, in a pipe, too");
 }
 
 std::vector<std::size_t> chosen_columns(const TableOptions& options,
                                         const std::vector<Heading>& columns, const Given& given) {
-  const std::vector<std::string> names = names_of(columns);
+  const std::vector<std::string> names = text::names_of(columns);
   std::vector<std::size_t> chosen;
   for (const auto& wanted : options.columns) {
     const auto it = std::find(names.begin(), names.end(), wanted);
-    if (it == names.end())
-      throw text::usage_error("no column '" + wanted + "'; there are " + joined(names, ","));
+    if (it == names.end()) throw text::usage_error(text::no_such("column", wanted, names));
     chosen.push_back(static_cast<std::size_t>(it - names.begin()));
   }
   if (!options.columns.empty()) return chosen;
@@ -123,21 +173,88 @@ std::vector<std::size_t> chosen_columns(const TableOptions& options,
   return chosen;
 }
 
-void write_header(const std::vector<std::string>& names, Output& output) {
-  output.write(joined(names, "\t") + "\n");
+void check_form(const CLI::App& app) {
+  at_most_one(app, {{"--json", "prints objects"},
+                    {"--tsv", "separates by tabs"},
+                    {"--table", "aligns columns"}});
+  if (given(app, "--json"))
+    refuse(app, {"--no-header"}, "with --json, whose objects name their values");
 }
 
-void write_row(const std::vector<std::string>& names, const std::vector<Cell>& cells, bool json,
-               Output& output) {
+void refuse_table(const CLI::App& app, const std::string& when) {
+  refuse(app, {"--fields", "--no-header", "--json", "--tsv", "--table"}, when);
+}
+
+Rows::Rows(const TableOptions& options, std::vector<std::string> names, Output& output)
+    : names_(std::move(names)),
+      json_(options.json),
+      aligned_(options.table || (!options.tsv && !options.json && output.terminal())),
+      output_(output) {
+  const std::vector<Cell> header(names_.begin(), names_.end());
+  if (aligned_) output_.before_commit = [this] { print_held(); };
+  if (options.header && !json_) print(header, true);
+}
+
+// Where an error ends the command, rows that are held back are as good as those before them.
+Rows::~Rows() {
+  output_.before_commit = nullptr;
+  if (held_.empty() || !output_.terminal()) return;
+  try {
+    print_held();
+    output_.commit();
+  } catch (...) {  // the error that brought us here is told
+  }
+}
+
+void Rows::row(const std::vector<Cell>& cells) {
+  print(cells, false);
+}
+
+// A header is of no use without a row: it does not count as one (Output::row).
+void Rows::print(const std::vector<Cell>& cells, bool header) {
+  if (aligned_) return hold(cells);
   std::string line;
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (json) {
-      line += (k ? ", " : "{") + nlohmann::json(names[k]).dump() + ": " + json_of_cell(cells[k]);
+    if (json_) {
+      line += (k ? ", " : "{") + nlohmann::json(names_[k]).dump() + ": " + json_of_cell(cells[k]);
     } else {
-      line += (k ? "\t" : "") + text(cells[k]);
+      line += (k ? "\t" : "") + printed(cells[k], false);
     }
   }
-  output.row(line + (json ? "}\n" : "\n"));
+  line += json_ ? "}\n" : "\n";
+  header ? output_.write(line) : output_.row(line);
+}
+
+// The first rows say how wide columns are; a terminal does not wait for them longer than a second.
+void Rows::hold(const std::vector<Cell>& cells) {
+  constexpr std::size_t enough = 100;
+  std::vector<Printed> line;
+  for (const Cell& cell : cells) line.push_back({printed(cell, true), is_number(cell)});
+  held_.push_back(std::move(line));
+  const bool late =
+      output_.terminal() && std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(1);
+  if (held_.size() >= enough || late || !width_.empty()) print_held();
+}
+
+// Numbers to the right, words to the left, two blanks between columns and none at the end.
+void Rows::print_held() {
+  width_.resize(names_.size(), 0);
+  number_.resize(names_.size(), false);
+  for (const auto& line : held_) {
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      width_[k] = std::max(width_[k], line[k].text.size());
+      number_[k] = number_[k] || line[k].number;
+    }
+  }
+  for (const auto& line : std::exchange(held_, {})) {
+    std::string text;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const std::string blanks(width_[k] - line[k].text.size(), ' ');
+      text += (k ? "  " : "") + (number_[k] ? blanks + line[k].text : line[k].text + blanks);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    output_.row(text + '\n');
+  }
 }
 
 }  // namespace sg::cmd

@@ -19,7 +19,10 @@ Maker add_city(CLI::App& app) {
   add_length(app, "--noise-point", world->optics.point_noise, "xy: noise, metres");
   add_length(app, "--noise-bearing", world->optics.bearing_noise, "bearing: noise, radians");
   add_landmark_noise(app, *world);
-  return [world] { return writer(world::city(*world)); };
+  return [&app, world] {
+    check_sensor(app, world->sensor);
+    return writer(world::city(*world));
+  };
 }
 
 }  // namespace sg::gen

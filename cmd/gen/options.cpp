@@ -1,50 +1,49 @@
 #include "cmd/gen/options.h"
 
+#include <algorithm>
 #include <map>
 
 namespace sg::gen {
 namespace {
 
-CLI::Validator number_check(bool zero) {
-  return CLI::Validator(
-      [zero](std::string& text) {
-        double x = -1;
-        const bool known = CLI::detail::lexical_cast(text, x);
-        if (known && x < 1e12 && (zero ? x >= 0 : x > 0)) return std::string();
-        return "wants a number " + std::string(zero ? "of 0 or more" : "above 0") + ", not '" +
-               text + "'";
-      },
-      "");
+constexpr double most_length = 1e12;
+
+CLI::Validator length() {
+  return {[](std::string& text) {
+            std::string cause = cmd::above_zero()(text);
+            return cause.empty() ? cmd::number(0, most_length)(text) : cause;
+          },
+          ""};
 }
 
 template <class Number>
-void add_number(CLI::App& app, const std::string& name, Number& value, const std::string& what,
-                const std::string& type, const CLI::Validator& check) {
-  app.add_option(name, value, what)->check(check)->type_name(type)->capture_default_str();
+CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value,
+                        const std::string& what, const std::string& type) {
+  return app.add_option(name, value, what)->type_name(type)->capture_default_str();
 }
 
 }  // namespace
 
 void add_length(CLI::App& app, const std::string& name, double& value, const std::string& what) {
-  add_number(app, name, value, what, "X", number_check(false));
+  add_number(app, name, value, what, "X")->check(length());
 }
 
 void add_size(CLI::App& app, const std::string& name, double& value, const std::string& what) {
-  add_number(app, name, value, what, "X", number_check(true));
+  add_number(app, name, value, what, "X")->check(cmd::number(0, most_length));
 }
 
 void add_count(CLI::App& app, const std::string& name, Index& value, int least,
                const std::string& what, int most) {
-  add_number(app, name, value, what, "N", CLI::Range(least, most).description(""));
+  add_number(app, name, value, what, "N")->transform(cmd::whole(least, most));
 }
 
 void add_chance(CLI::App& app, const std::string& name, double& value, const std::string& what) {
-  add_number(app, name, value, what, "P", CLI::Range(0.0, 1.0).description(""));
+  add_number(app, name, value, what, "P")->check(cmd::number(0, 1));
 }
 
 void add_sensor(CLI::App& app, SensorOptions& sensor) {
   app.add_option("--dim", sensor.dim, "2: SE(2) poses; 3: SE(3)")
-      ->check(CLI::IsMember({2, 3}).description(""))
+      ->transform(cmd::whole(2, 3))
       ->option_text("D [3]");
   app.add_option("--sensor", sensor.name, "mono, xyz, disparity; 2D: xy, bearing")
       ->check(cmd::one_of({"mono", "xyz", "disparity", "xy", "bearing"}))
@@ -64,6 +63,25 @@ world::Sensor chosen(const SensorOptions& options) {
                             (world::planar(sensor) ? "2" : "3"));
   }
   return sensor;
+}
+
+void check_sensor(const CLI::App& app, world::Sensor sensor) {
+  using world::Sensor;
+  struct Use {
+    const char* option;
+    std::vector<Sensor> sensors;
+    const char* of;
+  };
+  const Use uses[] = {{"--focal", {Sensor::mono, Sensor::disparity}, "mono and disparity"},
+                      {"--noise-pixel", {Sensor::mono, Sensor::disparity}, "mono and disparity"},
+                      {"--baseline", {Sensor::disparity}, "disparity"},
+                      {"--noise-point", {Sensor::xyz, Sensor::xy}, "xyz and xy"},
+                      {"--noise-bearing", {Sensor::bearing}, "bearing"},
+                      {"--parallax", {Sensor::mono, Sensor::bearing}, "mono and bearing"}};
+  for (const auto& [option, sensors, of] : uses) {
+    if (std::ranges::find(sensors, sensor) == sensors.end())
+      cmd::refuse(app, {option}, std::string("with this --sensor, only with ") + of);
+  }
 }
 
 void add_view(CLI::App& app, world::Optics& optics) {

@@ -36,8 +36,19 @@ void add_chance(CLI::App& app, const std::string& name, double& value, const std
 template <class Value>
 void add_word(CLI::App& app, const std::string& name, Value& value, const std::string& what,
               const std::string& text, const std::vector<std::pair<std::string, Value>>& words) {
+  std::vector<std::string> known;
+  for (const auto& word : words) known.push_back(word.first);
+  const auto number_of = [known, words](std::string& word) {
+    if (std::string cause = cmd::one_of(known)(word); !cause.empty()) return cause;
+    for (const auto& [name_of, value_of] : words) {
+      if (name_of != word) continue;
+      word = std::to_string(static_cast<int>(value_of));
+      break;
+    }
+    return std::string();
+  };
   app.add_option(name, value, what)
-      ->transform(CLI::Transformer(words).description(""))
+      ->transform(CLI::Validator(number_of, ""))
       ->option_text(text + " [" + words.front().first + "]");
 }
 
@@ -49,6 +60,8 @@ struct SensorOptions {
 void add_sensor(CLI::App& app, SensorOptions& sensor);
 // Throws a usage Error for a sensor of the other dimension.
 world::Sensor chosen(const SensorOptions& options);
+// Throws a usage Error for an option of the call that only other sensors have a use for.
+void check_sensor(const CLI::App& app, world::Sensor sensor);
 
 void add_view(CLI::App& app, world::Optics& optics);
 void add_sensor_noise(CLI::App& app, world::Optics& optics);

@@ -22,8 +22,11 @@ Maker add_sine(CLI::App& app) {
   add_view(app, world->optics);
   add_sensor_noise(app, world->optics);
   add_landmark_noise(app, *world);
-  return [world, sensor] {
+  return [&app, world, sensor] {
     world->sensor = chosen(*sensor);
+    check_sensor(app, world->sensor);
+    cmd::at_most_one(app,
+                     {{"--landmarks", "says how many"}, {"--density", "how many a square metre"}});
     if (world::camera(world->sensor) && world->optics.view >= 180)
       throw text::usage_error("a camera's --fov is below 180 degrees");
     return writer(world::sine(*world));

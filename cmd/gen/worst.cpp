@@ -15,8 +15,9 @@ Maker add_worst(CLI::App& app) {
   add_sensor(app, *sensor);
   add_sensor_noise(app, world->optics);
   add_landmark_noise(app, *world);
-  return [world, sensor] {
+  return [&app, world, sensor] {
     world->sensor = chosen(*sensor);
+    check_sensor(app, world->sensor);
     return writer(world::worst(*world));
   };
 }

@@ -6,6 +6,7 @@
 
 #include "lib/order/methods.h"
 #include "lib/text/error.h"
+#include "lib/text/nearest.h"
 
 namespace sg::order {
 namespace {
@@ -41,12 +42,10 @@ std::span<const Ordering> orderings() {
 }
 
 const Ordering& find_ordering(std::string_view name) {
-  std::string names;
   for (const Ordering& ordering : table) {
     if (ordering.name == name) return ordering;
-    names += (names.empty() ? "" : ", ") + std::string(ordering.name);
   }
-  throw text::usage_error("no ordering is called '" + std::string(name) + "'; there are " + names);
+  throw text::usage_error(text::no_such("ordering", name, text::names_of(table)));
 }
 
 graph::Order elimination_order(const Ordering& ordering, const graph::Pattern& pattern,

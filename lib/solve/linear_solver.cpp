@@ -5,6 +5,7 @@
 
 #include "lib/solve/eliminate.h"
 #include "lib/text/error.h"
+#include "lib/text/nearest.h"
 
 namespace sg::solve {
 namespace {
@@ -42,7 +43,7 @@ const Backend& find_backend(std::string_view name) {
   for (const Backend& backend : table) {
     if (backend.name == name) return backend;
   }
-  throw text::usage_error("no backend '" + std::string(name) + "'; there are: " + backend_names());
+  throw text::usage_error(text::no_such("backend", name, text::names_of(table)));
 }
 
 }  // namespace sg::solve

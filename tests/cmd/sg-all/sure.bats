@@ -109,8 +109,8 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
 }
 
 @test "a number that is none, or too small, is named in a short line" {
-  fails 2 "sg-ec: --every: wants a whole number of 1 or more, not 'x' (see sg-ec --help)" sg-ec --trace --every x walk.g2o
-  fails 2 "sg-rand: --keep: Value -1 is out of range (see sg-rand --help)" sg-rand --keep -1 walk.g2o
+  fails 2 "sg-ec: --every x is not a number (see sg-ec --help)" sg-ec --trace --every x walk.g2o
+  fails 2 "sg-rand: --keep -1: must be 0 or more (see sg-rand --help)" sg-rand --keep -1 walk.g2o
 }
 
 @test "a full disk" {

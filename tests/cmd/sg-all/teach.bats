@@ -109,7 +109,7 @@ same() {
 }
 
 @test "what is no specification" {
-  fails 2 "sg-info: --params wants a TAG (see sg-info --help)" sg-info --params '' walk.g2o
+  fails 2 "sg-info: --params: its value, TAG, is empty (see sg-info --help)" sg-info --params '' walk.g2o
   fails 2 "sg-info: --edge wants TAG:ARITY, as in EDGE_MINE:2, not 'E:0' (see sg-info --help)" sg-info --edge E:0 walk.g2o
   fails 2 "sg-info: --vertex wants TAG:DIM:ROLE with ROLE pose, landmark or other, not 'V:3' (see sg-info --help)" \
     sg-info --vertex V:3 walk.g2o

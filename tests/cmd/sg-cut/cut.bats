@@ -60,12 +60,13 @@ vertices() { awk '/^VERTEX/ {print $2}' "$@" | paste -sd ' '; }
 }
 
 @test "wrong calls" {
-  one="sg-cut: one of --poses, --range, --component, --largest and --ids is needed (see sg-cut --help)"
+  one="sg-cut: which part? Give one of --poses, --range, --component, --largest, --ids (see sg-cut --help)"
   fails 2 "$one" sg-cut walk.g2o
-  fails 2 "$one" sg-cut --largest --poses 3 walk.g2o
-  fails 2 "sg-cut: 'x' is no range FIRST:LAST (see sg-cut --help)" sg-cut --range x walk.g2o
+  fails 2 "sg-cut: which part? --poses keeps the first steps, --largest the largest connected part: give one of them (see sg-cut --help)" \
+    sg-cut --largest --poses 3 walk.g2o
+  fails 2 "sg-cut: --range x is no range FIRST:LAST (see sg-cut --help)" sg-cut --range x walk.g2o
   fails 2 "sg-cut: --range begins at pose 5, but there are 5 (see sg-cut --help)" sg-cut --range 5:6 walk.g2o
   fails 2 "sg-cut: --component: the graph has no vertex 7 (see sg-cut --help)" sg-cut --component 7 walk.g2o
-  fails 1 "sg-cut: walk.g2o: the part holds no vertex and no edge" sg-cut --ids 7 walk.g2o
+  fails 2 "sg-cut: --ids 7: the graph has no such vertex (see sg-cut --help)" sg-cut --ids 7 walk.g2o
   run -2 sg-cut --poses 0 walk.g2o
 }

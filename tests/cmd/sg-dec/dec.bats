@@ -42,8 +42,8 @@ observations() { awk '/^EDGE_SE2_XY/ {print $2 "-" $3}' | paste -sd' '; }
 }
 
 @test "wrong calls" {
-  fails 2 "sg-dec: --rate: wants a whole number of 1 or more, not '0' (see sg-dec --help)" sg-dec -r 0 walk.g2o
-  fails 2 "sg-dec: --rate: wants a whole number of 1 or more, not '-1' (see sg-dec --help)" sg-dec -r -1 walk.g2o
+  fails 2 "sg-dec: -r 0: must be 1 or more (see sg-dec --help)" sg-dec -r 0 walk.g2o
+  fails 2 "sg-dec: -r -1: must be 1 or more (see sg-dec --help)" sg-dec -r -1 walk.g2o
   fails 2 "sg-dec: --rate is required (see sg-dec --help)" sg-dec walk.g2o
 }
 

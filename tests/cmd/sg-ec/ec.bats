@@ -79,7 +79,7 @@ columns=order,vertices,edges,dim,ec,rose,flops,nnz,fill,max_clique,height,clique
 }
 
 @test "wrong calls" {
-  fails 2 "sg-ec: no column 'cost'; there are file,step,${columns} (see sg-ec --help)" sg-ec -f cost figure1.g2o
+  fails 2 "sg-ec: no column 'cost'; there are file, step, ${columns//,/, } (see sg-ec --help)" sg-ec -f cost figure1.g2o
   run -2 sg-ec -m nonsense figure1.g2o
   run -2 sg-ec --every 2 figure1.g2o
   run -2 sg-ec --trace --every 0 figure1.g2o

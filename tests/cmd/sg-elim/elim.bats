@@ -45,7 +45,7 @@ setup() { cd "$TESTDATA"; }
 }
 
 @test "wrong calls and too large graphs" {
-  run -2 sg-elim -m colamd,amd figure1.g2o
+  run -2 sg-elim -m colamd,amd --dot figure1.g2o
   run -2 sg-elim -m nonsense figure1.g2o
   awk 'BEGIN {for (i = 0; i < 150001; i++) print "VERTEX_SE2", i, 0, 0, 0}' >"$BATS_TEST_TMPDIR/large.g2o"
   fails 1 "sg-elim: $BATS_TEST_TMPDIR/large.g2o: 150001 variables are too many to simulate one by one (at most 150000); sg-ec scores any graph" \

@@ -54,7 +54,7 @@ is() {
 
 @test "a key that is not there" {
   printf 'EDGE_SE2 1 2 0 0 0 1 0 0 1 0 1\n' >one.g2o
-  keys=$(sg-info --no-header one.g2o | cut -f 1 | paste -sd ,)
+  keys=$(sg-info --no-header one.g2o | cut -f 1 | paste -sd , | sed 's/,/, /g')
   fails 2 "sg-info: no column 'colour'; there are $keys (see sg-info --help)" sg-info -f colour one.g2o
 }
 

@@ -70,10 +70,10 @@ setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 }
 
 @test "wrong calls" {
-  fails 2 "sg-kf: --rate: wants a whole number of 1 or more, not '0' (see sg-kf --help)" sg-kf -r 0 walk.g2o
-  fails 2 "sg-kf: --rate: wants a whole number of 1 or more, not '-1' (see sg-kf --help)" sg-kf -r -1 walk.g2o
+  fails 2 "sg-kf: -r 0: must be 1 or more (see sg-kf --help)" sg-kf -r 0 walk.g2o
+  fails 2 "sg-kf: -r -1: must be 1 or more (see sg-kf --help)" sg-kf -r -1 walk.g2o
   fails 2 "sg-kf: how many keyframes? Give -r, or --dist and --angle or one of them (see sg-kf --help)" sg-kf walk.g2o
-  fails 2 "sg-kf: how many keyframes? Give -r, or --dist and --angle or one of them (see sg-kf --help)" \
+  fails 2 "sg-kf: how many keyframes? -r keeps every R-th pose, --dist one every D metres: give one of them (see sg-kf --help)" \
     sg-kf -r 2 --dist 3 walk.g2o
 }
 

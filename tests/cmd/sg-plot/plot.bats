@@ -34,7 +34,7 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   [ "$(shapes cost.svg "$path")" -eq 0 ]
   sg-order --apply order in.g2o | sg-plot map >map.svg
   [ "$(shapes map.svg "$path")" -eq 2 ]
-  fails 2 "sg-plot: --cost belongs to map (see sg-plot --help)" sg-plot tree --cost in.g2o
+  fails 2 "sg-plot: --cost has no effect on a tree, only on a map (see sg-plot --help)" sg-plot tree --cost in.g2o
   printf 'VERTEX_SE2 1 5 5 0\nFIX 1\n' | sg-plot map --cost >/dev/null
 }
 
@@ -91,6 +91,6 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   fails 1 "sg-plot: in.g2o:1: VERTEX_X has no place on a map" sg-plot map --vertex VERTEX_X:3:pose in.g2o
   fails 2 "sg-plot: a picture's name ends in .svg, .png or .pdf; not so 'a.jpg' (see sg-plot --help)" \
     sg-plot map walk.g2o -o a.jpg
-  fails 2 "sg-plot: WHAT: hat not in {map,pattern,tree} (see sg-plot --help)" sg-plot hat walk.g2o
+  fails 2 "sg-plot: WHAT: hat: there are map, pattern, tree (see sg-plot --help)" sg-plot hat walk.g2o
   fails 2 "sg-plot: WHAT is required (see sg-plot --help)" sg-plot
 }

@@ -42,10 +42,10 @@ kept() { sg-rand "$@" walk.g2o | grep -c EDGE_SE2_XY || true; }
 }
 
 @test "wrong calls" {
-  fails 2 "sg-rand: --rate: wants a whole number of 1 or more, not '0' (see sg-rand --help)" sg-rand -r 0 walk.g2o
-  fails 2 "sg-rand: --rate: wants a whole number of 1 or more, not '-1' (see sg-rand --help)" sg-rand -r -1 walk.g2o
+  fails 2 "sg-rand: -r 0: must be 1 or more (see sg-rand --help)" sg-rand -r 0 walk.g2o
+  fails 2 "sg-rand: -r -1: must be 1 or more (see sg-rand --help)" sg-rand -r -1 walk.g2o
   fails 2 "sg-rand: how many candidates stay? Give one of -r, -p, -k, --like (see sg-rand --help)" sg-rand walk.g2o
-  fails 2 "sg-rand: how many candidates stay? Give one of -r, -p, -k, --like (see sg-rand --help)" \
+  fails 2 "sg-rand: how many candidates stay? -r keeps one in R, -k so many: give one of them (see sg-rand --help)" \
     sg-rand -r 2 -k 3 walk.g2o
   run -2 sg-rand -p 1.5 walk.g2o
   fails 1 "sg-rand: missing.g2o: No such file or directory" sg-rand --like missing.g2o walk.g2o

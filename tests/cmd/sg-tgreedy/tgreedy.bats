@@ -73,8 +73,8 @@ loops() {
 }
 
 @test "wrong calls and inputs" {
-  fails 2 "sg-tgreedy: --rate: wants a whole number of 1 or more, not '0' (see sg-tgreedy --help)" sg-tgreedy -r 0 walk.g2o
-  fails 2 "sg-tgreedy: --online: wants a whole number of 1 or more, not '0' (see sg-tgreedy --help)" \
+  fails 2 "sg-tgreedy: -r 0: must be 1 or more (see sg-tgreedy --help)" sg-tgreedy -r 0 walk.g2o
+  fails 2 "sg-tgreedy: --online 0: must be 1 or more (see sg-tgreedy --help)" \
     sg-tgreedy -r 2 --online 0 walk.g2o
   fails 2 "sg-tgreedy: how many candidates stay? Give one of -r, -p, -k, --like (see sg-tgreedy --help)" \
     sg-tgreedy walk.g2o
