@@ -80,7 +80,7 @@ std::string known_formats() {
 
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_input(command, options.input);
-  command.app.add_option("--to", options.to, known_formats() + " (default: g2o)")
+  command.app.add_option("--to", options.to, known_formats() + "\n(default: g2o)")
       ->option_text("FORMAT");
   command.app.add_flag("--scalar", options.write.scalar,
                        "mtx: the scalar system matrix, not the block one");

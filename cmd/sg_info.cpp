@@ -26,7 +26,7 @@ std::optional<double> average(std::int64_t sum, std::int64_t count) {
 // The facts of every graph. Those of a file's tags follow them.
 const std::vector<cmd::Column<Row>> facts{
     {"file", "The name as given", [](Row& row) { return row.graph.file; }},
-    {"format", "g2o, toro, isam, tum or kitti", [](Row& row) { return row.format; }},
+    {"format", "g2o, toro, isam, tum, kitti or bal", [](Row& row) { return row.format; }},
     {"vertices", "All of them", [](Row& row) { return row.graph.vertices(); }},
     count("poses", "Vertices that are poses", &graph::Summary::poses),
     count("landmarks", "Vertices that are landmarks", &graph::Summary::landmarks),
@@ -90,9 +90,11 @@ void add_options(cmd::Command& command, Options& options) {
 void show(const cmd::Command& /*command*/, const Options& options) {
   const text::Text text = cmd::read_text(options.input);
   const Graph graph = cmd::read(options.input, text);
-  const auto columns = with_tags(facts, text.view);
-  Row row{graph, formats::find_format(options.input.options, text.view).name,
-          graph::summarize(graph)};
+  const formats::ReadFormat& format = formats::find_format(options.input.options, text.view);
+  // A format whose lines begin with numbers has no tags but those of what it is read as.
+  const bool tagless = format.to_g2o && format.begins("0");
+  const auto columns = with_tags(facts, tagless ? graph.text.view : text.view);
+  Row row{graph, format.name, graph::summarize(graph)};
   cmd::Output output(options.output.path);
   if (options.table.json) {
     cmd::Table(options.table, columns, {}, output).row(row);

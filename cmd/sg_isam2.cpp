@@ -150,7 +150,7 @@ void write_graph(const cmd::Command& command, const Options& options,
   for (Index v = 0; v < problem.graph->vertices(); ++v) {
     const Index j = problem.variables.vertex_variable[v];
     if (!replay.placed[v] || j < 0) continue;
-    moved[v] = j != problem.held;
+    moved[v] = !factor::is_held(problem, j);
     std::copy(replay.isam.estimate.begin() + problem.value_at[v],
               replay.isam.estimate.begin() + problem.value_at[v + 1],
               values.begin() + problem.value_at[v]);

@@ -174,7 +174,7 @@ void print_iteration(const solve::Iteration& iteration) {
 std::vector<bool> moved(const factor::Problem& problem) {
   std::vector<bool> result(problem.graph->vertices(), false);
   for (std::size_t j = 0; j < problem.variables.variable_vertex.size(); ++j) {
-    result[problem.variables.variable_vertex[j]] = static_cast<Index>(j) != problem.held;
+    result[problem.variables.variable_vertex[j]] = !factor::is_held(problem, static_cast<Index>(j));
   }
   return result;
 }

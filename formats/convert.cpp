@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "formats/bal.h"
 #include "formats/dot.h"
 #include "formats/isam.h"
 #include "formats/metis_file.h"
@@ -26,6 +27,7 @@ constexpr std::array formats{
     WriteFormat{"g2o", "g2o text", nothing, write_g2o},
     WriteFormat{"toro", "TORO", toro_losses, write_toro, true},
     WriteFormat{"isam", "iSAM", isam_losses, write_isam},
+    WriteFormat{"bal", "BAL", bal_losses, write_bal, true},
     WriteFormat{"mtx", "Matrix Market pattern of A^T A", nothing, write_mtx},
     WriteFormat{"metis", "METIS graph", nothing, write_metis},
     WriteFormat{"dot", "Graphviz", nothing, write_dot},

@@ -4,6 +4,7 @@
 #include <array>
 #include <unordered_map>
 
+#include "formats/bal.h"
 #include "formats/g2o.h"
 #include "formats/isam.h"
 #include "formats/kitti.h"
@@ -32,6 +33,7 @@ constexpr std::array formats{
                tum_to_g2o},
     ReadFormat{"kitti", "KITTI: a trajectory, a matrix a line", looks_like_kitti, is_number,
                kitti_to_g2o},
+    ReadFormat{"bal", "BAL: cameras, points, and pixels", looks_like_bal, is_number, bal_to_g2o},
     // Last: what no other format claims.
     ReadFormat{"g2o", "g2o text", anything, anything, nullptr},
 };

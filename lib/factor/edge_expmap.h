@@ -58,11 +58,21 @@ struct Pinhole {
   double fx, fy, cx, cy, shift;
 };
 
+// The Jacobians, in the landmark and in the six first scalars of the camera's step, of an error with
+// this slope in the landmark as the camera sees it.
+template <int dim>
+void carry_back(const Eigen::Matrix<double, dim, 3>& slope, const SE3& pose,
+                const Eigen::Vector3d& seen, double* landmark, double* camera) {
+  Eigen::Map<Eigen::Matrix<double, dim, 3>>{landmark} = slope * pose.q.toRotationMatrix();
+  Eigen::Map<Eigen::Matrix<double, dim, 6>> of_step(camera);
+  of_step.template leftCols<3>() = -slope * geometry::skew(seen);
+  of_step.template rightCols<3>() = slope;
+}
+
 // The error of the first `dim` of (u, v, u_right), and its Jacobians in the landmark and the pose.
 template <int dim>
 void project(const double* const* x, const double* z, const Pinhole& camera, double* e,
              double* const* J) {
-  using Slope = Eigen::Matrix<double, dim, 3>;
   const SE3 pose = geometry::se3(x[1]);
   const Eigen::Vector3d seen = act(pose, geometry::vector3(x[0]));
   const double w = seen[2], u = seen[0] / w, v = seen[1] / w;
@@ -73,24 +83,19 @@ void project(const double* const* x, const double* z, const Pinhole& camera, dou
   const Eigen::Matrix3d full{{-camera.fx / w, 0, camera.fx * u / w},
                              {0, -camera.fy / w, camera.fy * v / w},
                              {-camera.fx / w, 0, (camera.fx * u - camera.shift / w) / w}};
-  const Slope slope = full.topRows<dim>();
-  Eigen::Map<Slope>{J[0]} = slope * pose.q.toRotationMatrix();
-  Eigen::Map<Eigen::Matrix<double, dim, 6>> pose_jacobian(J[1]);
-  pose_jacobian.template leftCols<3>() = -slope * geometry::skew(seen);
-  pose_jacobian.template rightCols<3>() = slope;
+  carry_back<dim>(full.topRows<dim>(), pose, seen, J[0], J[1]);
 }
 
-// The landmark at depth w behind pixel (u, v).
-inline Eigen::Vector3d behind(const SE3& pose, const double* z, const Pinhole& camera, double w) {
-  const Eigen::Vector3d seen(w * (z[0] - camera.cx) / camera.fx, w * (z[1] - camera.cy) / camera.fy,
-                             w);
-  return act(inverse(pose), seen);
+// Where pixel (u, v) looks: a point at depth 1 of the camera's frame.
+inline Eigen::Vector3d toward(const double* z, const Pinhole& camera) {
+  return {(z[0] - camera.cx) / camera.fx, (z[1] - camera.cy) / camera.fy, 1};
 }
 
-// The two planes through the camera's centre that a pixel's column and row are.
-inline Ray pixel_ray(const SE3& pose, const double* z, const Pinhole& camera) {
-  const Eigen::Vector3d axes[] = {{1, 0, -(z[0] - camera.cx) / camera.fx},
-                                  {0, 1, -(z[1] - camera.cy) / camera.fy}};
+// The ray from the camera's centre in a direction of its frame that does not lie in its plane. Its rows
+// are two planes through the centre: those of a pixel's column and of its row.
+inline Ray ray_along(const SE3& pose, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d axes[] = {{1, 0, -direction[0] / direction[2]},
+                                  {0, 1, -direction[1] / direction[2]}};
   const SE3 to_world = inverse(pose);
   Ray ray;
   ray.rows = 2;
@@ -99,8 +104,7 @@ inline Ray pixel_ray(const SE3& pose, const double* z, const Pinhole& camera) {
     ray.row[k] = {normal[0], normal[1], normal[2], normal.dot(to_world.t)};
   }
   Eigen::Map<Eigen::Vector3d>{ray.origin.data()} = to_world.t;
-  Eigen::Map<Eigen::Vector3d>{ray.ahead.data()} =
-      (behind(pose, z, camera, 1) - to_world.t).normalized();
+  Eigen::Map<Eigen::Vector3d>{ray.ahead.data()} = (to_world.q * direction).normalized();
   return ray;
 }
 
@@ -130,12 +134,12 @@ struct PixelEdge : Registered<type> {
     if (dim < 3 || end != 0) return false;
     const double w = camera(c).shift / (c[0] - c[dim - 1]);
     if (!(w > 0) || !std::isfinite(w)) return false;
-    Eigen::Map<Eigen::Vector3d>{out} = behind(geometry::se3(x[1]), c, camera(c), w);
+    Eigen::Map<Eigen::Vector3d>{out} = act(inverse(geometry::se3(x[1])), w * toward(c, camera(c)));
     return true;
   }
 
   static Ray rays(const double* const* x, const double* c) {
-    return pixel_ray(geometry::se3(x[1]), c, camera(c));
+    return ray_along(geometry::se3(x[1]), toward(c, camera(c)));
   }
 };
 

@@ -33,6 +33,7 @@ Eigen::Vector3d position(graph::Space space, const double* x) {
     case graph::Space::xy:
       return {x[0], x[1], 0};
     case graph::Space::expmap:
+    case graph::Space::bal_camera:
       return inverse(geometry::se3(x)).t;
     default:
       return geometry::vector3(x);
@@ -64,7 +65,7 @@ Motions motions_of(const Problem& problem, const Values& values, Index v, const 
   moved << Eigen::Matrix3d::Identity(), -geometry::skew(p), p;
   turned << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity() / frame.radius,
       Eigen::Vector3d::Zero();
-  Motions step(graph::space_dim(space), motions);
+  Motions step = Motions::Zero(graph::space_dim(space), motions);
   switch (space) {
     case graph::Space::se2:
       step << moved.topRows(2), turned.bottomRows(1);
@@ -74,9 +75,10 @@ Motions motions_of(const Problem& problem, const Values& values, Index v, const 
       step << to_body * moved, to_body * turned / 2;
       break;
     }
-    case graph::Space::expmap: {
+    case graph::Space::expmap:
+    case graph::Space::bal_camera: {
       const Eigen::Matrix3d to_camera = geometry::se3(x).q.toRotationMatrix();
-      step << -to_camera * turned, -to_camera * moved;
+      step.topRows<rigid>() << -to_camera * turned, -to_camera * moved;
       break;
     }
     case graph::Space::xy:

@@ -27,7 +27,8 @@ bool holds_gauge(const Problem& problem, const Values& values);
 // Whether the first pose is a constant, or its own edges hold the gauge.
 bool holds_first_pose(const Problem& problem, const Values& values);
 
-// Holds the first pose, of a graph without one the first vertex: makes its columns zero, and a last row for them.
+// Holds the first pose, of a graph without one the first vertex: makes the columns of its motions zero, and a last row
+// for them. A camera's focal length is not held with it.
 void hold_first_pose(Problem& problem);
 
 // A step, by scalar, that changes the scale of the whole without any measurement's noticing; empty if there is none.

@@ -17,9 +17,9 @@ int columns(const graph::Pattern& pattern, Index r) {
   return block_columns(pattern, r) - 1;
 }
 
-void gauge_row(int dim, double* block) {
-  std::fill_n(block, dim * (dim + 1), 0.0);
-  for (int k = 0; k < dim; ++k) block[k * dim + k] = 1;
+void gauge_row(int held, int dim, double* block) {
+  std::fill_n(block, held * (dim + 1), 0.0);
+  for (int k = 0; k < held; ++k) block[k * held + k] = 1;
 }
 
 // An edge with fixed vertices, or with the same vertex twice: columns of constants are left out,
@@ -45,9 +45,9 @@ void gather_columns(const Problem& problem, Index e, const double* all, double* 
 void clear_held(const Problem& problem, Index e, double* block) {
   const graph::Pattern& pattern = problem.variables.pattern;
   for (Index j : pattern.rows[e]) {
-    const int size = problem.model[e]->dim * pattern.dim[j];
-    if (j == problem.held) std::fill_n(block, size, 0.0);
-    block += size;
+    const int height = problem.model[e]->dim;
+    if (j == problem.held) std::fill_n(block, height * held_dim(problem), 0.0);
+    block += height * pattern.dim[j];
   }
 }
 
@@ -70,7 +70,7 @@ text::Error error_of_edge(const Problem& problem, Index e, const std::string& ca
 
 int block_rows(const Problem& problem, Index r) {
   const bool gauge = r >= problem.graph->edges();
-  return gauge ? problem.variables.pattern.dim[problem.held] : problem.model[r]->dim;
+  return gauge ? held_dim(problem) : problem.model[r]->dim;
 }
 
 int block_columns(const graph::Pattern& pattern, Index r) {
@@ -108,7 +108,8 @@ void linearize_row(const Problem& problem, const Values& values, const Kernel& k
   const graph::Pattern& pattern = problem.variables.pattern;
   assert(0 <= r && r < pattern.rows.size());
   assert(static_cast<Index>(values.size()) == problem.value_at.back());
-  if (r >= problem.graph->edges()) return gauge_row(pattern.dim[problem.held], block);
+  if (r >= problem.graph->edges())
+    return gauge_row(held_dim(problem), pattern.dim[problem.held], block);
   const Model& model = *problem.model[r];
   const Ends x = ends_of(problem, values, r);
   const double* const c = constants_of(problem, r);

@@ -35,9 +35,9 @@
 namespace sg::factor {
 
 constexpr int max_ends = 2;
-constexpr int max_dim = 6;                                     // of an error, and of a vertex
-constexpr int max_size = 7;                                    // of an estimate
-constexpr int max_block = max_dim * (max_ends * max_dim + 1);  // numbers of a linearized factor
+constexpr int max_dim = 6;                                      // of an error
+constexpr int max_step = 9;                                     // of a vertex
+constexpr int max_block = max_dim * (max_ends * max_step + 1);  // numbers of a linearized factor
 
 template <graph::EdgeTag type>
 struct EdgeModel;  // has no definition where there is no model

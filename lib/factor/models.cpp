@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/factor/edge_bal.h"
 #include "lib/factor/edge_expmap.h"
 #include "lib/factor/edge_point.h"
 #include "lib/factor/edge_se2.h"

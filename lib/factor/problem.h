@@ -7,8 +7,8 @@
 // Gauge. Relative measurements leave the whole free to move. Unless something holds it (a pose with a
 // FIX line, or measurements that notice every motion of the whole: gauge.h), the first pose is held:
 // it stays a variable of the system, so that the structure (and its elimination complexity) is the
-// graph's own, but its columns are zero and an extra last row says that its step is zero. g2o holds a
-// vertex of its choice.
+// graph's own, but its columns are zero and an extra last row says that its step is zero. Of a camera
+// that is its pose; its focal length is not the gauge's. g2o holds a vertex of its choice.
 #pragma once
 
 #include <string>
@@ -50,6 +50,15 @@ Problem make_problem(const Graph&&) = delete;  // it points to the graph
 // The estimates of the file's VERTEX lines. An input Error where it has none: start_values
 // (initialize.h) composes them.
 Values file_values(const Problem& problem);
+
+// How many scalars of the held variable's step are held, the first ones.
+inline int held_dim(const Problem& problem) {
+  return graph::moving_dim(problem.space[problem.variables.variable_vertex[problem.held]]);
+}
+// Whether the gauge holds variable j and leaves nothing of it to move.
+inline bool is_held(const Problem& problem, Index j) {
+  return j == problem.held && held_dim(problem) == problem.variables.pattern.dim[j];
+}
 
 // What edge e has of it all.
 inline const double* constants_of(const Problem& problem, Index e) {

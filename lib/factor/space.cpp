@@ -7,6 +7,11 @@
 namespace sg::factor {
 namespace {
 
+// Whether an estimate is the inverse of the pose in its line.
+bool maps_to_camera(graph::Space space) {
+  return space == graph::Space::expmap || space == graph::Space::bal_camera;
+}
+
 Vector6d vector6(const double* x) {
   return Eigen::Map<const Vector6d>(x);
 }
@@ -23,6 +28,9 @@ void retract(graph::Space space, const double* step, double* x) {
     case graph::Space::se3:
       set_se3(normalized(compose(geometry::se3(x), geometry::from_compact(vector6(step)))), x);
       break;
+    case graph::Space::bal_camera:
+      for (int k = 0; k < 3; ++k) x[7 + k] += step[6 + k];
+      [[fallthrough]];
     case graph::Space::expmap:
       set_se3(
           normalized(compose(geometry::exp(geometry::swapped(vector6(step))), geometry::se3(x))),
@@ -39,20 +47,21 @@ void retract(graph::Space space, const double* step, double* x) {
 
 void set_origin(graph::Space space, double* x) {
   std::fill_n(x, graph::space_size(space), 0.0);
-  if (space == graph::Space::se3 || space == graph::Space::expmap) x[6] = 1;
+  if (graph::has_quaternion(space)) x[6] = 1;
+  if (space == graph::Space::bal_camera) x[7] = 1;
 }
 
 bool from_file(graph::Space space, const double* numbers, double* x) {
   std::copy_n(numbers, graph::space_size(space), x);
-  if (space != graph::Space::se3 && space != graph::Space::expmap) return true;
+  if (!graph::has_quaternion(space)) return true;
   if (geometry::se3(x).q.norm() < 1e-6) return false;
-  if (space == graph::Space::expmap) set_se3(inverse(normalized(geometry::se3(x))), x);
+  if (maps_to_camera(space)) set_se3(inverse(normalized(geometry::se3(x))), x);
   return true;
 }
 
 void to_file(graph::Space space, const double* x, double* numbers) {
   std::copy_n(x, graph::space_size(space), numbers);
-  if (space == graph::Space::expmap) set_se3(inverse(geometry::se3(x)), numbers);
+  if (maps_to_camera(space)) set_se3(inverse(geometry::se3(x)), numbers);
 }
 
 }  // namespace sg::factor

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "lib/graph/lists.h"
+
 namespace sg::graph {
 namespace {
 

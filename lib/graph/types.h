@@ -3,7 +3,8 @@
 // tag, and asks its row.
 //
 // Source: the type libraries of g2o (slam2d, slam3d, sba, sim3, sclam2d), which register these tags
-// and define the estimates, tangent steps and errors; TORO for VERTEX2, EDGE2, VERTEX3, EDGE3.
+// and define the estimates, tangent steps and errors; TORO for VERTEX2, EDGE2, VERTEX3, EDGE3. The
+// tags of BAL are ours, after the classes of g2o's example, which have none.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace sg::graph {
 
 // clang-format off
 enum class Space : std::uint8_t {
-  none, se2, se3, expmap, camera, euler, sim3, xy, xyz, line2d, segment2d, line3d, plane,
+  none, se2, se3, expmap, camera, bal_camera, euler, sim3, xy, xyz, line2d, segment2d, line3d, plane,
   intrinsics, wheels,
 };
 // clang-format on
@@ -52,6 +53,8 @@ inline constexpr std::array space_rows{
     SpaceRow{Space::expmap, 6, 7, 3, {3, 3}, {0, 3}},
     // x y z qx qy qz qw fx fy cx cy baseline; a step as of se3
     SpaceRow{Space::camera, 6, 12, 3, {0, 3}, {3, 3}, 0.5},
+    // x y z qx qy qz qw focal_length k1 k2; a step as of expmap, and three numbers added
+    SpaceRow{Space::bal_camera, 9, 10, 3, {3, 3}, {0, 3}},
     // x y z roll pitch yaw
     SpaceRow{Space::euler, 6, 6, 3, {0, 3}, {3, 3}},
     // The logarithm of a similarity: (rotation, translation, scale)
@@ -71,9 +74,14 @@ constexpr int space_dim(Space space) {
 constexpr int space_size(Space space) {
   return facts(space).numbers;
 }
+// Of a step: scalars that a motion of the whole changes. They are the first ones.
+constexpr int moving_dim(Space space) {
+  return facts(space).translation.size + facts(space).rotation.size;
+}
 // Whether a line's first seven numbers are x y z qx qy qz qw.
 constexpr bool has_quaternion(Space space) {
-  return space == Space::se3 || space == Space::expmap || space == Space::camera;
+  return space == Space::se3 || space == Space::expmap || space == Space::camera ||
+         space == Space::bal_camera;
 }
 
 // ---- Vertices.
@@ -82,7 +90,7 @@ enum class Role : std::uint8_t { pose, landmark, other };
 
 // clang-format off
 enum class VertexTag : std::uint8_t {
-  se2, se3, expmap, cam, sim3, toro3, toro2, xy, trackxyz, xyz, line2d, segment2d, line3d, plane,
+  se2, se3, expmap, cam, bal_camera, sim3, toro3, toro2, xy, trackxyz, xyz, line2d, segment2d, line3d, plane,
   intrinsics, wheels,
 };
 // clang-format on
@@ -99,6 +107,7 @@ inline constexpr std::array vertex_rows{
     VertexRow{VertexTag::se3, "VERTEX_SE3:QUAT", Space::se3, Role::pose},
     VertexRow{VertexTag::expmap, "VERTEX_SE3:EXPMAP", Space::expmap, Role::pose},
     VertexRow{VertexTag::cam, "VERTEX_CAM", Space::camera, Role::pose},
+    VertexRow{VertexTag::bal_camera, "VERTEX_CAMERA_BAL", Space::bal_camera, Role::pose},
     VertexRow{VertexTag::sim3, "VERTEX_SIM3:EXPMAP", Space::sim3, Role::pose},
     VertexRow{VertexTag::toro3, "VERTEX3", Space::euler, Role::pose},
     VertexRow{VertexTag::toro2, "VERTEX2", Space::se2, Role::pose},
@@ -155,7 +164,7 @@ enum class EdgeTag : std::uint8_t {
   se3_calib, se3_lotsof_xyz, gicp, toro3, toro2, expmap, project_xyz2uv, project_xyz2uvu,
   se3_project_xyz, stereo_se3_project_xyz, se3_project_xyz_onlypose,
   stereo_se3_project_xyz_onlypose, project_p2mc, project_p2sc, cam, scale, sim3, project_sim3_xyz,
-  project_inverse_sim3_xyz,
+  project_inverse_sim3_xyz, observation_bal,
 };
 // clang-format on
 
@@ -210,7 +219,8 @@ constexpr auto SE2 = VertexTag::se2, XY = VertexTag::xy, LINE2D = VertexTag::lin
                SEGMENT2D = VertexTag::segment2d, WHEELS = VertexTag::wheels, SE3 = VertexTag::se3,
                TRACKXYZ = VertexTag::trackxyz, LINE3D = VertexTag::line3d, PLANE = VertexTag::plane,
                EXPMAP = VertexTag::expmap, XYZ = VertexTag::xyz, CAM = VertexTag::cam,
-               SIM3 = VertexTag::sim3, TORO2 = VertexTag::toro2, TORO3 = VertexTag::toro3;
+               CAMERA_BAL = VertexTag::bal_camera, SIM3 = VertexTag::sim3, TORO2 = VertexTag::toro2,
+               TORO3 = VertexTag::toro3;
 constexpr auto OFFSET2 = ParamTag::se2_offset, OFFSET3 = ParamTag::se3_offset,
                CAMERA = ParamTag::camera, PINHOLE = ParamTag::pinhole;
 using enum Space;
@@ -283,6 +293,7 @@ inline constexpr std::array edges{
             "EDGE_PROJECT_INVERSE_SIM3_XYZ:EXPMAP",
             plain(2),
             {XYZ, SIM3}},
+    EdgeRow{Tag::observation_bal, "EDGE_OBSERVATION_BAL", plain(2), {CAMERA_BAL, XYZ}},
 };
 
 }  // namespace rows

@@ -77,6 +77,8 @@ TEST_CASE("rows agree with their spaces", "[types]") {
     CHECK(row.rotation.first + row.rotation.size <= row.dim);
     CHECK((row.numbers < 0 || row.position <= row.numbers));
     CHECK((row.position == 0 || row.position == row.translation.size));
+    if (factor::has_steps(row.space))  // those that move are the first ones
+      CHECK(graph::moving_dim(row.space) == (row.space == graph::Space::bal_camera ? 6 : row.dim));
     CHECK((!graph::has_quaternion(row.space) || row.numbers >= 7));
   }
   for (const graph::EdgeRow& row : graph::edge_rows) {
@@ -115,7 +117,7 @@ TEST_CASE("types of the registry are known by their enumerators", "[types]") {
 }
 
 TEST_CASE("models are found by type, and a taught type has none", "[types]") {
-  CHECK(factor::models().size() == 22);
+  CHECK(factor::models().size() == 23);
   for (const factor::Model& model : factor::models()) {
     CHECK(factor::find_model(model.type) == &model);
     CHECK(model.tag == graph::name(model.type));

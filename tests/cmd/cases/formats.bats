@@ -193,7 +193,7 @@ fact() {
     sg-ec --from isam 58-kitti-poses.txt
   fails 2 "sg-ec: --from tum: no line of the input is of that format (it looks like isam) (see sg-ec --help)" \
     sg-ec --from tum 87-isam-keywords.isam
-  fails 2 "sg-ec: unknown format 'torro'; there are toro, isam, tum, kitti, g2o (see sg-ec --help)" sg-ec --from torro 87-isam-keywords.isam
+  fails 2 "sg-ec: unknown format 'torro'; there are toro, isam, tum, kitti, bal, g2o (see sg-ec --help)" sg-ec --from torro 87-isam-keywords.isam
 }
 
 @test "compressed by any of four, whole or cut short" {

@@ -121,7 +121,7 @@ near() {
 }
 
 @test "wrong calls" {
-  fails 2 "sg-convert: unknown format 'obj'; there are g2o, toro, isam, mtx, metis, dot, tum (see sg-convert --help)" \
+  fails 2 "sg-convert: unknown format 'obj'; there are g2o, toro, isam, bal, mtx, metis, dot, tum (see sg-convert --help)" \
     sg-convert --to obj walk.g2o
   fails 2 "sg-convert: --scalar belongs to --to mtx (see sg-convert --help)" sg-convert --scalar walk.g2o
 }
