@@ -181,7 +181,7 @@ TEST_CASE("BAL: pixels are those of its own projection, and come back", "[bal]")
     const Graph back = graph_of(written(graph));
     CHECK(back.id == graph.id);
     CHECK(back.vertex_type == graph.vertex_type);
-    CHECK(back.edge_vertices == graph.edge_vertices);
+    CHECK(back.edge_vertices.items == graph.edge_vertices.items);
     CHECK(chi2_of(back) == Approx(chi2_of(graph)).epsilon(1e-10));
     const auto pattern = graph::graph_pattern(graph).pattern;
     CHECK(elim::elimination_complexity(pattern, order::elimination_order("colamd", pattern)) ==
