@@ -10,6 +10,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+// sin(a)/a and (1 - cos(a))/a.
+struct Sinc {
+  double sine;
+  double versine;
+};
+Sinc sinc(double a) {
+  if (std::abs(a) < 1e-4) return {1 - a * a / 6, a / 2 * (1 - a * a / 12)};
+  return {std::sin(a) / a, (1 - std::cos(a)) / a};
+}
+
 }  // namespace
 
 double wrap(double angle) {
@@ -46,6 +56,17 @@ Eigen::Vector2d act(const SE2& a, const Eigen::Vector2d& point) {
 Eigen::Matrix3d adjoint(const SE2& a) {
   const double c = std::cos(a.theta), s = std::sin(a.theta);
   return Eigen::Matrix3d{{c, -s, a.y}, {s, c, -a.x}, {0, 0, 1}};
+}
+
+SE2 exp(const Eigen::Vector3d& v) {
+  const auto [sine, versine] = sinc(v[2]);
+  return {sine * v[0] - versine * v[1], versine * v[0] + sine * v[1], wrap(v[2])};
+}
+
+Eigen::Vector3d log(const SE2& a) {
+  const auto [sine, versine] = sinc(a.theta);
+  const double square = sine * sine + versine * versine;
+  return {(sine * a.x + versine * a.y) / square, (sine * a.y - versine * a.x) / square, a.theta};
 }
 
 UncertainSE2 compose(const UncertainSE2& a, const UncertainSE2& b) {

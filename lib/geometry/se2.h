@@ -32,6 +32,8 @@ Eigen::Matrix2d rotation(double theta);
 
 // Ad(a) with a exp(v) a^-1 = exp(Ad(a) v).
 Eigen::Matrix3d adjoint(const SE2& a);
+SE2 exp(const Eigen::Vector3d& tangent);
+Eigen::Vector3d log(const SE2& a);  // inverse of exp for |theta| < pi
 
 // A measured motion with the information of EDGE_SE2.
 struct UncertainSE2 {
