@@ -260,7 +260,8 @@ void add_output(CLI::App& app, OutputOptions& output, const std::string& what, W
           [&app, writes](const std::string& path) {
             return wrong_ending(path, written(app, writes));
           },
-          ""));
+          ""))
+      ->each(check_output);
 }
 
 void add_output(Command& command, OutputOptions& output) {
