@@ -19,6 +19,7 @@ namespace {
 constexpr double first_lambda = 1e-4;
 constexpr double least_lambda = 1e-20;
 constexpr double largest_lambda = 1e12;
+constexpr int patience = 7;  // steps that may go by before an undamped one is the best so far
 // Of what is ill-conditioned: more damps away what little holds it.
 constexpr double first_lambda_by_qr = 1e-14;
 
@@ -166,8 +167,15 @@ void gauss_newton_step(Run& run) {
   run.solver.back_substitute(run.step);
 }
 
+// An end above the start is none: the iterations stall far out. moves: rounding's, at the start.
+bool is_below_start(const Run& run, const std::vector<double>& moves) {
+  const double start = run.result.initial_chi2, end = run.result.chi2;
+  return end <= start || small_change(run, start, end) || is_zero(run, moves);
+}
+
 bool gauss_newton(Run& run) {
   BatchResult& result = run.result;
+  const std::vector<double> moves = rounding_of_estimate(run);
   while (goes_on(run)) {
     Stopwatch watch;
     try {
@@ -178,7 +186,7 @@ bool gauss_newton(Run& run) {
     }
     const double linearize_s = watch.lap();
     gauss_newton_step(run);
-    if (is_flat(run)) return true;
+    if (is_flat(run) && is_below_start(run, moves)) return true;
     const double eliminate_s = watch.lap();
     factor::retract(run.problem, run.step, run.values);
     const double before =
@@ -186,7 +194,9 @@ bool gauss_newton(Run& run) {
     tell(run,
          {++result.iterations, result.chi2, 0, norm(run.step), true, linearize_s, eliminate_s});
     check_finite(run);
-    if (is_there(run, before, result.chi2)) return true;
+    if (!is_there(run, before, result.chi2)) continue;
+    if (!is_below_start(run, moves)) throw diverged(run);
+    return true;
   }
   return false;
 }
@@ -195,14 +205,17 @@ bool gauss_newton(Run& run) {
 struct Damping {
   double lambda = first_lambda;
   double growth = 2;
+  double decay = 1.0 / 3;
 
   void gained(double ratio) {
-    lambda = std::max(least_lambda, lambda * std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3)));
+    lambda = std::max(least_lambda, lambda * std::max(decay, 1 - std::pow(2 * ratio - 1, 3)));
+    decay = ratio > 0.9 ? decay / 3 : 1.0 / 3;  // what keeps its promises is let go
     growth = 2;
   }
   void lost() {
     lambda *= growth;
     growth *= 2;
+    decay = 1.0 / 3;
   }
 };
 
@@ -215,6 +228,46 @@ double promised(const std::vector<double>& gradient, const std::vector<double>& 
   return sum;
 }
 
+// Where a walk of undamped steps set out: the best estimate so far, to which it turns back.
+struct Walk {
+  bool on;  // steps are undamped, and may raise chi2
+  factor::Values best;
+  double least;    // chi2 of best
+  int astray = 0;  // steps since best
+  int kept = 0;    // damped steps since the last walk
+  int rest = 8;    // so many of them call for the next
+};
+
+void turn_back(Run& run, Walk& walk) {
+  run.values = walk.best;
+  run.result.chi2 = walk.least;
+  walk.on = false;
+  walk.astray = walk.kept = 0;
+  walk.rest *= 2;
+}
+
+void note_step(Run& run, Walk& walk) {
+  if (run.result.chi2 > walk.least) {
+    ++walk.astray;
+    return;
+  }
+  walk.best = run.values;
+  walk.least = run.result.chi2;
+  walk.astray = 0;
+}
+
+// The system of where the steps led; false where there is none, and the walk turned back.
+bool relinearize_or_turn_back(Run& run, Walk& walk) {
+  try {
+    relinearize(run);
+    return true;
+  } catch (const text::Error&) {  // far out, edges have no derivative, or weigh too much
+    if (walk.astray == 0) throw;
+    turn_back(run, walk);
+    return false;
+  }
+}
+
 bool levenberg_marquardt(Run& run) {
   BatchResult& result = run.result;
   Stopwatch watch;
@@ -224,21 +277,28 @@ bool levenberg_marquardt(Run& run) {
   if (is_flat(run)) return true;
   Damping damping;
   if (result.by_qr) damping.lambda = first_lambda_by_qr;
+  Walk walk{!result.scale_free, run.values, result.chi2};
   std::vector<double> added(run.problem.step_at.back());
-  bool stale = false;  // the system is not that of the values
+  bool stale = false;         // the system is not that of the values
+  bool eliminated = walk.on;  // and without damping
   while (goes_on(run) && damping.lambda < largest_lambda) {
     watch.lap();
-    if (stale) {
-      relinearize(run);
+    if (std::exchange(stale, false)) {
+      stale = !relinearize_or_turn_back(run, walk);
+      if (stale) continue;
       linearize_s = watch.lap();
-      if (is_flat(run)) return true;
+      if (walk.astray == 0 && is_flat(run)) return true;
     }
-    std::ranges::transform(run.diagonal, added.begin(),
-                           [&](double d) { return damping.lambda * d; });
-    const double lambda = damping.lambda;
-    stale = false;
-    if (!run.solver.eliminate(run.system, added)) {
-      damping.lost();
+    const double lambda = walk.on ? 0 : damping.lambda;
+    std::ranges::transform(run.diagonal, added.begin(), [&](double d) { return lambda * d; });
+    if (!std::exchange(eliminated, false) &&
+        !run.solver.eliminate(run.system, walk.on ? std::span<const double>{} : added)) {
+      if (walk.on) {
+        turn_back(run, walk);
+        stale = true;
+      } else {
+        damping.lost();
+      }
       continue;
     }
     run.solver.back_substitute(run.step);
@@ -246,17 +306,26 @@ bool levenberg_marquardt(Run& run) {
     factor::Values trial = run.values;
     factor::retract(run.problem, run.step, trial);
     const double after = factor::chi2(run.problem, trial, run.options.kernel), before = result.chi2;
-    const bool kept = after <= before;
+    const bool kept = walk.on ? std::isfinite(after) : after <= before;
     if (kept) {
       run.values = std::move(trial);
       result.chi2 = after;
       stale = true;
+      note_step(run, walk);
     }
     tell(run, {++result.iterations, after, lambda, norm(run.step), kept, linearize_s, eliminate_s});
     const double promise = promised(run.gradient, added, run.step);
-    if (is_there(run, before, after) || promise <= run.options.tolerance * before) return true;
-    kept ? damping.gained((before - after) / promise) : damping.lost();
+    const bool there = is_there(run, before, after) || promise <= run.options.tolerance * before;
+    if (there && (walk.astray == 0 || small_change(run, walk.least, after))) return true;
+    if (!walk.on) {
+      kept ? damping.gained((before - after) / promise) : damping.lost();
+      if (kept && !result.scale_free && ++walk.kept == walk.rest) walk.on = true;
+    } else if (there || !kept || walk.astray > patience) {
+      turn_back(run, walk);
+      stale = true;
+    }
   }
+  if (walk.astray > 0) turn_back(run, walk);
   return false;
 }
 

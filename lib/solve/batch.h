@@ -5,6 +5,14 @@
 // linearized system promised (Nielsen, Damping Parameter in Marquardt's Method, 1999; Madsen, Nielsen, Tingleff,
 // Methods for Non-linear Least Squares Problems, 2004, section 3.2).
 //
+// Alone, that creeps where a long trajectory has to bend. Its slow modes have eigenvalues by many orders below the
+// diagonal, so that any lambda holds them back; and the step that bends it raises the sum, by terms of second order in
+// the turns, which the next step takes away: asking every step to lower the sum forbids it. So the first steps are
+// Gauss-Newton's, and while they go on they may raise the sum: the watchdog technique (Chamberlain, Powell, Lemarechal,
+// Pedersen, The watchdog technique for forcing convergence in algorithms for constrained optimization, 1982). If none of
+// a few in a row is the best so far, the iterations turn back to the best, and damped steps go on from there; after some
+// of these, undamped ones are tried again.
+//
 // Converged is an estimate that a step changes little (in chi-square, or by nothing but rounding), where the gradient
 // vanishes beside what it is summed up from, or whose chi-square is what rounding leaves of 0.
 //
