@@ -10,15 +10,10 @@
 namespace sg::formats {
 namespace {
 
-bool passed_over(std::string_view line) {
-  const auto word = text::next_word(line);
-  return word.empty() || word.starts_with('#');
-}
-
 std::string_view next_record(std::string_view& text) {
   std::string_view line;
   do line = text::next_line(text);
-  while (!text.empty() && passed_over(line));
+  while (!text.empty() && says_nothing(line));
   return line;
 }
 
@@ -108,7 +103,7 @@ void translate_estimate(Reader& reader, std::string_view rest, std::string& out)
 
 void translate_line(Reader& reader, std::string_view line, std::string& out) {
   if (reader.given_up) return;
-  if (passed_over(line)) {
+  if (says_nothing(line)) {
     out += line;
   } else if (!reader.begun) {
     read_header(reader, line);

@@ -37,9 +37,7 @@ std::string kitti_to_g2o(std::string_view text, const std::string& file,
                          const Complaint& complaint) {
   Id id = 0;
   return translate_lines(text, file, complaint, [&](std::string_view line, std::string& out) {
-    auto rest = line;
-    const auto word = text::next_word(rest);
-    if (word.empty() || word.starts_with('#')) return void(out += line);
+    if (says_nothing(line)) return void(out += line);
     translate_pose(line, id++, out);
   });
 }

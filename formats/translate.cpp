@@ -40,11 +40,16 @@ void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink)
   }
 }
 
+bool says_nothing(std::string_view line) {
+  const auto word = text::next_word(line);
+  return word.empty() || word.starts_with('#');
+}
+
 bool looks_like_table(std::string_view text, int words) {
   while (!text.empty()) {
     auto line = text::next_line(text);
+    if (says_nothing(line)) continue;
     auto word = text::next_word(line);
-    if (word.empty() || word.starts_with('#')) continue;
     if (!text::parse<double>(word)) return false;
     for (; !word.empty(); word = text::next_word(line)) --words;
     return words == 0;

@@ -23,6 +23,9 @@ std::string translate_lines(std::string_view text, const std::string& file,
 // nothing is left out; comments stay. What it throws as BadLine becomes an input Error.
 void write_lines(const Graph& graph, const TranslateLine& translate, Sink& sink);
 
+// Whether a line is blank or a comment.
+bool says_nothing(std::string_view line);
+
 // EDGE2 and EDGE3, tags that TORO and iSAM share, with numbers of different meaning.
 constexpr bool shared_by_toro_and_isam(std::string_view tag) {
   return tag == "EDGE2" || tag == "EDGE3";

@@ -72,11 +72,10 @@ bool looks_like_tum(std::string_view text) {
 
 std::string tum_to_g2o(std::string_view text, const std::string& file, const Complaint& complaint) {
   return translate_lines(text, file, complaint, [](std::string_view line, std::string& out) {
+    if (says_nothing(line)) return void(out += line);
     auto rest = line;
-    const auto time = text::next_word(rest);
-    if (time.empty() || time.starts_with('#')) return void(out += line);
     out += graph::name(graph::VertexTag::se3);
-    text::append_number(out, id_of_time(time));
+    text::append_number(out, id_of_time(text::next_word(rest)));
     copy_quaternion_pose(rest, out);
     text::expect_end(rest);
   });

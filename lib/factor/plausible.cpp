@@ -138,7 +138,7 @@ std::optional<Step> step_of(const Graph& graph, Index e, std::vector<double>& n)
   graph::edge_numbers(graph, e, n);
   const graph::SpaceRow& space = graph::facts(graph.type_of_edge(e).space);
   if (type == graph::EdgeTag::se2)
-    return step_of<3>({geometry::exp_so3({0, 0, n[2]}), {n[0], n[1], 0}}, {n.data() + 3, 6}, space);
+    return step_of<3>(geometry::in_space(geometry::se2(n.data())), {n.data() + 3, 6}, space);
   return step_of<6>(geometry::normalized(geometry::se3(n.data())), {n.data() + 7, 21}, space);
 }
 

@@ -87,13 +87,9 @@ std::array<const double*, max_ends> find_params(Builder& builder, Index e, const
 void check_ends(const Builder& builder, Index e, const Model& model) {
   const auto vertices = builder.graph.edge(e);
   for (int k = 0; k < model.arity; ++k) {
-    const Index v = vertices[k];
-    if (builder.problem.space[v] == model.ends[k]) continue;
+    if (builder.problem.space[vertices[k]] == model.ends[k]) continue;
     throw graph::error_at(builder.graph, builder.graph.edge_line[e],
-                          quoted(model.tag) + " joins vertex " +
-                              std::to_string(builder.graph.id[v]) + ", a " +
-                              builder.graph.type_of_vertex(v).tag + ", where it wants a " +
-                              quoted(graph::name(graph::row(model.type).ends[k])));
+                          graph::wrong_end(builder.graph, e, k));
   }
 }
 

@@ -10,7 +10,6 @@
 
 #include "lib/geometry/triangle.h"
 #include "lib/graph/components.h"
-#include "lib/text/error.h"
 
 namespace sg::graph {
 namespace {
@@ -91,11 +90,8 @@ void check_edge_count(const Graph& graph, Index e, const Numbers& numbers, Findi
 }
 
 void check_ends(const Graph& graph, Index e, Findings& findings) {
-  try {
-    graph::check_ends(graph, e);
-  } catch (const text::Error& error) {
-    findings.push_back({graph.edge_line[e], Severity::error, error.what()});
-  }
+  if (const auto k = misplaced_end(graph, e))
+    findings.push_back({graph.edge_line[e], Severity::error, wrong_end(graph, e, *k)});
 }
 
 // By id; of several the first.

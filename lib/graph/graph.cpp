@@ -95,7 +95,7 @@ std::optional<int> misplaced_end(const Graph& graph, Index e) {
   const EdgeType& type = graph.type_of_edge(e);
   const auto vertices = graph.edge(e);
   for (int k = 0; k < static_cast<int>(vertices.size()) && type.ends.size > 0; ++k) {
-    const VertexRow& wanted = row(type.ends[std::min(k, type.ends.size - 1)]);
+    const VertexRow& wanted = row(wanted_end(type, k));
     const VertexType& found = graph.type_of_vertex(vertices[k]);
     // What was taught has no space: its role has to do.
     if (found.space == Space::none ? found.role != wanted.role : found.space != wanted.space)
@@ -104,15 +104,17 @@ std::optional<int> misplaced_end(const Graph& graph, Index e) {
   return std::nullopt;
 }
 
-void check_ends(const Graph& graph, Index e) {
-  const auto k = misplaced_end(graph, e);
-  if (!k) return;
+std::string wrong_end(const Graph& graph, Index e, int k) {
   const EdgeType& type = graph.type_of_edge(e);
-  const Index v = graph.edge(e)[*k];
-  throw error_at(graph, graph.edge_line[e],
-                 type.tag + " joins vertex " + std::to_string(graph.id[v]) + ", a " +
-                     graph.type_of_vertex(v).tag + ", where it wants a " +
-                     std::string(name(type.ends[std::min(*k, type.ends.size - 1)])));
+  const Index v = graph.edge(e)[k];
+  return type.tag + " joins vertex " + std::to_string(graph.id[v]) + ", a " +
+         graph.type_of_vertex(v).tag + ", where it wants a " +
+         std::string(name(wanted_end(type, k)));
+}
+
+void check_ends(const Graph& graph, Index e) {
+  if (const auto k = misplaced_end(graph, e))
+    throw error_at(graph, graph.edge_line[e], wrong_end(graph, e, *k));
 }
 
 std::vector<Index> file_order(const Graph& graph) {

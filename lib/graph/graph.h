@@ -84,8 +84,10 @@ void param_numbers(const Graph& graph, const Param& param, std::vector<double>& 
 std::vector<Id> edge_params(const Graph& graph, Index e);
 
 // The first end of an edge whose vertex is of another kind than the edge's type wants, a landmark where
-// a pose belongs; nothing where that is not known. check_ends throws an input Error that names it.
+// a pose belongs; nothing where that is not known. What is to be said of such an end; check_ends throws
+// it as an input Error.
 std::optional<int> misplaced_end(const Graph& graph, Index e);
+std::string wrong_end(const Graph& graph, Index e, int k);
 void check_ends(const Graph& graph, Index e);
 
 // Vertices in the order in which the file names them: by VERTEX line, or by first mention in an

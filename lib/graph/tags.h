@@ -2,6 +2,7 @@
 // teaches.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -34,6 +35,11 @@ struct EdgeType {
   Space space = Space::none;
   Triangle order = Triangle::rows;
 };
+
+// What the type wants as its k-th vertex; one that has ends.
+inline VertexTag wanted_end(const EdgeType& type, int k) {
+  return type.ends[std::min(k, type.ends.size - 1)];
+}
 
 // Index into Tags::vertices or Tags::edges: of a type of the registry its enumerator, of a taught
 // one a larger number. Of a parameter its enumerator.
