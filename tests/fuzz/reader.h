@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "formats/convert.h"
 #include "formats/formats.h"
 #include "formats/write.h"
 
@@ -55,6 +56,31 @@ inline void require_consistent(const Graph& graph) {
   for (Index v = 0; v < graph.vertices(); ++v) {
     require(graph::find_vertex(graph, graph.id[v]) == v);
     require((graph.vertex_line[v] == graph::implied) == graph.edges_only);
+  }
+}
+
+// A file of a foreign format: what comes of it agrees.
+inline std::optional<Graph> read(const std::uint8_t* data, std::size_t size,
+                                 const std::string& format) {
+  auto graph = graph_of(copy_of(data, size), format);
+  if (graph) require_consistent(*graph);
+  return graph;
+}
+
+// And what is written of that can be read again, or is refused. TORO's writer passes over vertices
+// without a line; BAL's needs them all.
+inline void read_and_write(const std::uint8_t* data, std::size_t size, const std::string& format) {
+  const auto graph = read(data, size, format);
+  if (!graph) return;
+  const formats::WriteFormat& writer = formats::find_write_format(format);
+  writer.losses(*graph);
+  if (format == "bal" && graph->edges_only) return;
+  try {
+    StringSink sink;
+    writer.write(*graph, {}, sink);
+    graph_of(text::text_of(std::move(sink.text)), format);
+  } catch (const text::Error& error) {
+    require(error.fault == text::Fault::input);
   }
 }
 

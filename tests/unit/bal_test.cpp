@@ -77,18 +77,13 @@ Graph graph_of(const std::string& text) {
   return formats::read_graph_text(text::text_of(text), "test");
 }
 
-struct StringSink final : formats::Sink {
-  std::string text;
-  void write(std::string_view bytes) override { text += bytes; }
-};
-
 double chi2_of(const Graph& graph) {
   const factor::Problem problem = factor::make_problem(graph);
   return factor::chi2(problem, factor::start_values(problem));
 }
 
 std::string written(const Graph& graph) {
-  StringSink sink;
+  test::StringSink sink;
   formats::find_write_format("bal").write(graph, {}, sink);
   return sink.text;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/write.h"
 #include "lib/graph/graph.h"
 #include "lib/graph/pattern.h"
 #include "lib/order/order.h"
@@ -32,6 +33,12 @@ graph::Pattern make_pattern(std::vector<int> dim, const std::vector<std::vector<
 // of them fixed), unary rows, rows of many variables (in one pattern of four), the same row twice, parts that nothing
 // connects.
 graph::Pattern odd_pattern(Random& random, Index n, int most_dim = 6);
+
+// What a writer writes.
+struct StringSink final : formats::Sink {
+  std::string text;
+  void write(std::string_view bytes) override { text += bytes; }
+};
 
 Graph graph_of(const std::string& text);    // that calls itself test.g2o
 Graph test_graph(const std::string& name);  // of testdata

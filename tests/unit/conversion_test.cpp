@@ -17,11 +17,6 @@ using namespace sg;
 
 namespace {
 
-struct StringSink final : formats::Sink {
-  std::string text;
-  void write(std::string_view bytes) override { text += bytes; }
-};
-
 // Information of a random kind: regular, singular, diagonal, or indefinite (`bad`).
 std::string information(test::Random& random, int dim, bool bad) {
   Eigen::MatrixXd root(dim, dim);
@@ -117,7 +112,7 @@ std::optional<Graph> through(const std::string& format, const Graph& graph) {
   for (const auto& loss : writer.losses(graph)) {
     if (loss.structure) return std::nullopt;
   }
-  StringSink sink;
+  test::StringSink sink;
   try {
     if (graph.edges_only && writer.estimates) {
       writer.write(with_estimates(graph), {}, sink);

@@ -23,11 +23,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-struct StringSink final : formats::Sink {
-  void write(std::string_view bytes) override { text += bytes; }
-  std::string text;
-};
-
 enum class Kind { se2, quat, expmap };
 constexpr std::array kinds{Kind::se2, Kind::quat, Kind::expmap};
 

@@ -15,11 +15,6 @@ namespace {
 
 using sg::Index;
 
-struct StringSink final : sg::formats::Sink {
-  std::string text;
-  void write(std::string_view bytes) override { text += bytes; }
-};
-
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {
