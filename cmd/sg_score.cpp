@@ -28,51 +28,68 @@ struct Options {
   std::string align = "se";
 };
 
-struct Row {
+// What a graph's rows share, whatever the ordering.
+struct Subject {
   const Options& options;
   const std::optional<score::Trajectory>& reference;
   const std::string& file;
   const Graph& graph;
   trees::Weights weights;
-  graph::GraphPattern variables;
-  cmd::Method method;
-  std::optional<graph::Order> order_ = {};
+  graph::GraphPattern variables = graph::graph_pattern(graph);
+  std::optional<score::Trajectory> trajectory_ = {};
+  std::optional<double> log_trees_ = {};
+  std::optional<std::optional<double>> lambda2_ = {};
   std::optional<score::TrajectoryError> error_ = {};
 
-  const graph::Order& order() {
-    return cmd::once(order_,
-                     [&] { return cmd::order_by(method, options.method, graph, variables); });
+  const score::Trajectory& trajectory() {
+    return cmd::once(trajectory_, [&] { return score::trajectory(graph); });
   }
-  elim::Wide ec() { return elim::elimination_complexity(variables.pattern, order()); }
-  double log_det() {
-    const factor::Problem problem = factor::make_problem(graph);
-    return score::log_det_information(problem, factor::start_values(problem), order());
+  double log_trees() {
+    return cmd::once(log_trees_, [&] { return trees::log_trees(graph, weights); });
+  }
+  std::optional<double> lambda2() {
+    return cmd::once(lambda2_, [&] { return trees::algebraic_connectivity(graph, weights); });
   }
   const score::TrajectoryError& error() {
     return cmd::once(error_, [&] {
-      return score::trajectory_error(score::trajectory(graph), reference.value(),
+      return score::trajectory_error(trajectory(), reference.value(),
                                      score::alignment(options.align).value());
     });
   }
 };
 
+struct Row {
+  Subject& of;
+  cmd::Method method;
+  std::optional<graph::Order> order_ = {};
+
+  const graph::Order& order() {
+    return cmd::once(
+        order_, [&] { return cmd::order_by(method, of.options.method, of.graph, of.variables); });
+  }
+  elim::Wide ec() { return elim::elimination_complexity(of.variables.pattern, order()); }
+  double log_det() {
+    const factor::Problem problem = factor::make_problem(of.graph);
+    return score::log_det_information(problem, factor::start_values(problem), order());
+  }
+};
+
 const std::vector<cmd::Column<Row>> columns{
-    {"file", "The file", [](Row& row) { return row.file; }, "several files"},
-    {"vertices", "How many there are", [](Row& row) { return row.graph.vertices(); }},
-    {"edges", "How many there are", [](Row& row) { return row.graph.edges(); }},
+    {"file", "The file", [](Row& row) { return row.of.file; }, "several files"},
+    {"vertices", "How many there are", [](Row& row) { return row.of.graph.vertices(); }},
+    {"edges", "How many there are", [](Row& row) { return row.of.graph.edges(); }},
     {"log_trees", "Logarithm of the weighted number of spanning trees",
-     [](Row& row) { return trees::log_trees(row.graph, row.weights); }},
-    {"lambda2", "Algebraic connectivity",
-     [](Row& row) { return trees::algebraic_connectivity(row.graph, row.weights); }},
+     [](Row& row) { return row.of.log_trees(); }},
+    {"lambda2", "Algebraic connectivity", [](Row& row) { return row.of.lambda2(); }},
     {"dopt", "Log determinant of the information at the file's estimate", &Row::log_det},
     {"avg_obs", "Mean number of observations a landmark",
-     [](Row& row) { return graph::average_observations(row.graph); }},
+     [](Row& row) { return graph::average_observations(row.of.graph); }},
     {"matched", "Poses that graph and reference share",
-     [](Row& row) { return row.error().matched; }, "--reference"},
+     [](Row& row) { return row.of.error().matched; }, "--reference"},
     {"ate_rmse", "Absolute trajectory error, its root mean square",
-     [](Row& row) { return row.error().ate; }, "--reference"},
+     [](Row& row) { return row.of.error().ate; }, "--reference"},
     {"rpe_rmse", "Relative pose error, its root mean square",
-     [](Row& row) { return row.error().rpe; }, "--reference"},
+     [](Row& row) { return row.of.error().rpe; }, "--reference"},
     {"order", "The ordering", [](Row& row) { return row.method.label; }},
     {"ec", "Elimination complexity", &Row::ec},
 };
@@ -112,12 +129,12 @@ void check_columns(const Options& options) {
 }
 
 // What makes a comparison other than it looks.
-void warn_of_reference(const cmd::Command& command, const Options& options, const Graph& graph,
-                       const score::Trajectory& reference) {
-  const score::Trajectory own = score::trajectory(graph);
+void warn_of_reference(const cmd::Command& command, Subject& subject) {
+  const score::Trajectory &own = subject.trajectory(), &reference = subject.reference.value();
   std::vector<Id> shared;
   std::ranges::set_intersection(own.id, reference.id, std::back_inserter(shared));
-  const std::string both = graph.file + " and " + text::input_name(options.reference);
+  const std::string both =
+      subject.graph.file + " and " + text::input_name(subject.options.reference);
   if (shared.empty()) {
     cmd::warn(command, both + " have no pose in common (poses are matched by id)");
   } else if (score::is_planar(own) != score::is_planar(reference)) {
@@ -142,10 +159,10 @@ void run(const cmd::Command& command, const Options& options) {
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
     cmd::stage("score");
-    if (reference) warn_of_reference(command, options, graph, *reference);
-    for (const cmd::Method& method : cmd::methods(options.method, graph)) {
-      table.row({options, reference, path, graph, weights, graph::graph_pattern(graph), method});
-    }
+    Subject subject{options, reference, path, graph, weights};
+    if (reference) warn_of_reference(command, subject);
+    for (const cmd::Method& method : cmd::methods(options.method, graph))
+      table.row({subject, method});
   }
   output.commit();
 }
