@@ -1,6 +1,4 @@
 // sg-check: what is wrong with a graph, a line a finding.
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "cmd/common/command.h"
@@ -42,8 +40,7 @@ std::vector<Message> messages(const std::string& path, const Options& options) {
   read.complaint = [&](const text::Error& error) {
     found.push_back({file, error.line, Severity::error, error.what()});
   };
-  cmd::begin_reading(path);
-  text::Text source = text::read_text(path);
+  text::Text source = cmd::read_text({path, read});
   const std::string_view format = formats::find_format(read, source.view).name;
   const std::size_t bytes = source.view.size();
   const Graph graph = formats::read_graph_text(std::move(source), file, read);
@@ -90,8 +87,6 @@ int check(const cmd::Command& command, const Options& options) {
   cmd::Table table({{}, true, true}, columns, {}, output);
   bool errors = false;
   for (const auto& path : options.inputs.paths) {
-    if (path == "-" && ::isatty(STDIN_FILENO))
-      throw text::usage_error("no graph: give a FILE or pipe one in");
     for (const Message& found : messages(path, options)) {
       errors = errors || found.severity == Severity::error;
       if (command.quiet && found.severity != Severity::error) continue;

@@ -5,6 +5,7 @@
 #include "formats/convert.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/undetermined.h"
+#include "lib/text/nearest.h"
 
 using namespace sg;
 
@@ -65,11 +66,8 @@ void check_ending(const Options& options) {
       throw text::usage_error("-o " + path + ": what is written is " + options.to + "; --to " +
                               std::string(other.name) + " writes the other");
   }
-  for (const char* packed : {".gz", ".zst", ".xz", ".bz2"}) {
-    if (path.ends_with(packed))
-      throw text::usage_error("-o " + path +
-                              ": nothing is written compressed; pipe it into a compressor");
-  }
+  if (const std::string cause = cmd::packed_ending(path); !cause.empty())
+    throw text::usage_error("-o " + cause);
 }
 
 // Without --to, the format that -o's name ends in, if any does.
@@ -97,16 +95,11 @@ void convert(const cmd::Command& command, const Options& given) {
   for (const std::string& line : lost) cmd::warn(command, line);
 }
 
-std::string known_formats() {
-  std::string known;
-  for (const formats::WriteFormat& format : formats::write_formats())
-    known += (known.empty() ? "" : ", ") + std::string(format.name);
-  return known;
-}
-
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_input(command, options.input);
-  command.app.add_option("--to", options.to, known_formats() + "\n(default: g2o)")
+  command.app
+      .add_option("--to", options.to,
+                  text::listed(text::names_of(formats::write_formats())) + "\n(default: g2o)")
       ->option_text("FORMAT");
   command.app.add_flag("--scalar", options.write.scalar,
                        "mtx: the scalar system matrix, not the block one");

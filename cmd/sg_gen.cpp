@@ -4,6 +4,7 @@
 
 #include "cmd/common/command.h"
 #include "cmd/gen/worlds.h"
+#include "lib/text/nearest.h"
 
 using namespace sg;
 
@@ -62,7 +63,6 @@ int main(int argc, char** argv) {
   cmd::Command command("sg-gen",
                        "Generate a graph. `sg-gen WORLD --help` lists a world's options.");
   Files files;
-  std::string worlds;
   std::map<const CLI::App*, gen::Maker> makers;
   command.app.require_subcommand(0, 1);  // what is left over then, a wrong world, is named
   command.app.get_formatter()->label("SUBCOMMAND", "WORLD");
@@ -70,12 +70,12 @@ int main(int argc, char** argv) {
     CLI::App* app =
         command.app.add_subcommand(world.name, world.what)->group("Worlds")->fallthrough();
     makers[app] = world.add(*app);
-    worlds += (worlds.empty() ? "" : ", ") + std::string(world.name);
     add_files(*app, files);
   }
   return cmd::run(command, argc, argv, [&] {
     if (command.app.get_subcommands().empty())
-      throw text::usage_error("which WORLD? There are " + worlds);
+      throw text::usage_error("which WORLD? There are " +
+                              text::listed(text::names_of(gen::worlds)));
     generate(command, files, makers.at(command.app.get_subcommands().front()));
   });
 }

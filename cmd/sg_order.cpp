@@ -17,7 +17,7 @@ namespace {
 struct Options {
   cmd::Input input;
   cmd::OutputOptions output;
-  std::string method = cmd::default_method;
+  std::string method{order::default_ordering};
   std::string apply;
   bool print = false;
   std::vector<Id> last;

@@ -178,12 +178,6 @@ std::string in_our_words(const Scan& scan, const std::string& cause) {
   return cause;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 }  // namespace
 
 void parse(CLI::App& app, int argc, char** argv) {
@@ -217,7 +211,7 @@ void at_most_one(const CLI::App& app, std::initializer_list<Choice> choices,
     if (given(app, option)) said.push_back(std::string(option) + " " + does);
   }
   if (said.size() < 2) return;
-  throw text::usage_error((question.empty() ? "" : question + " ") + listed(said) +
+  throw text::usage_error((question.empty() ? "" : question + " ") + text::listed(said) +
                           ": give one of them");
 }
 
@@ -229,7 +223,7 @@ void exactly_one(const CLI::App& app, std::initializer_list<Choice> choices,
     if (given(app, option)) return;
     options.emplace_back(option);
   }
-  throw text::usage_error(question + " Give one of " + listed(options));
+  throw text::usage_error(question + " Give one of " + text::listed(options));
 }
 
 }  // namespace sg::cmd

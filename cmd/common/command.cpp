@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
+#include "formats/convert.h"
+#include "lib/text/line.h"
 #include "lib/text/words.h"
 
 namespace sg::cmd {
@@ -50,15 +53,7 @@ void add_read_options(Command& command, formats::ReadOptions& options) {
 
 // A message is one line, whatever the name of a file has.
 std::string one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    if (c == '\n' || c == '\r' || c == '\t' || c == '\x1b') {
-      line += c == '\n' ? "\\n" : c == '\r' ? "\\r" : c == '\t' ? "\\t" : "\\e";
-    } else {
-      line += c;
-    }
-  }
-  return line;
+  return text::escaped(text, "\n\r\t\x1b");
 }
 
 int report(const Command& command, const text::Error& error) {
@@ -94,25 +89,23 @@ std::string wrong_ending(const std::string& path, const std::string& writes) {
   const auto dot = path.rfind('.');
   if (writes.empty() || dot == path.npos || path.find('/', dot) != path.npos) return "";
   const std::string ending = path.substr(dot + 1);
-  const auto is_one_of = [&](std::initializer_list<const char*> endings) {
-    return std::ranges::find(endings, ending) != endings.end();
+  const auto is_name_of = [&](const auto& table) {
+    return std::ranges::any_of(table, [&](const auto& row) { return row.name == ending; });
   };
   if (ending == writes) return "";
-  if (is_one_of({"gz", "zst", "xz", "bz2"}))
-    return path + ": nothing is written compressed; pipe it into a compressor";
+  if (std::string cause = packed_ending(path); !cause.empty()) return cause;
   const std::string what = writes == "g2o"   ? "g2o text"
                            : writes == "tsv" ? "a table"
                            : writes == "dot" ? "text for Graphviz"
                                              : "JSON";
   const std::string cause = path + ": what is written is " + what;
-  if (is_one_of({"toro", "isam", "bal", "tum", "mtx", "metis", "dot"}) && writes == "g2o")
+  if (is_name_of(formats::write_formats()) && writes == "g2o")
     return cause + "; sg-convert --to " + ending + " writes the other";
   if (ending == "json" && writes == "tsv") return cause + "; --json makes it JSON";
   if (ending == "tsv" && writes == "json") return cause + "; without --json it is a table";
-  return is_one_of(
-             {"g2o", "toro", "isam", "bal", "tum", "kitti", "mtx", "metis", "dot", "json", "tsv"})
-             ? cause
-             : "";
+  const bool promises = ending == "json" || ending == "tsv" ||
+                        is_name_of(formats::write_formats()) || is_name_of(formats::read_formats());
+  return promises ? cause : "";
 }
 
 // Prints --help or --version, whose text is an output like any other.
@@ -197,6 +190,13 @@ void add_inputs(Command& command, Inputs& inputs) {
   command.app.add_option("FILE", inputs.paths, "Graphs; standard input if - or missing")
       ->option_text("...");
   add_read_options(command, inputs.options);
+}
+
+std::string packed_ending(const std::string& path) {
+  const bool packed =
+      std::ranges::any_of(std::array{".gz", ".zst", ".xz", ".bz2"},
+                          [&](const char* ending) { return path.ends_with(ending); });
+  return packed ? path + ": nothing is written compressed; pipe it into a compressor" : "";
 }
 
 text::Text read_text(const Input& input) {

@@ -79,6 +79,8 @@ struct OutputOptions {
 };
 // A name whose ending (.g2o, .toro, .json, .gz) promises something else than what is written is a usage error.
 enum class Writes { graph, table, other };
+// Why a name must not end as a compressed file's does; empty where it does not.
+std::string packed_ending(const std::string& path);
 void add_output(CLI::App& app, OutputOptions& output,
                 const std::string& what = "Write to FILE, whole or not at all",
                 Writes writes = Writes::table);

@@ -10,7 +10,7 @@ void add(Command& command, MethodOptions& options, const char* type, int most) {
       .add_option("-m,--method", options.names,
                   "Orderings of sg-order(1). Default: the file's own\n"
                   "if sg-order left one, " +
-                      std::string(default_method) + " otherwise")
+                      std::string(order::default_ordering) + " otherwise")
       ->option_text(type)
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -41,7 +41,8 @@ void stop_when_interrupted(const order::Ordering& ordering, order::OrderOptions&
 std::vector<Method> methods(const MethodOptions& options, const Graph& graph) {
   if (options.names.empty()) {
     if (graph.order_method.empty())
-      return {{default_method, &order::find_ordering(default_method)}};
+      return {
+          {std::string(order::default_ordering), &order::find_ordering(order::default_ordering)}};
     return {{"file:" + graph.order_method, &order::find_ordering("file")}};
   }
   std::vector<Method> chosen;

@@ -9,8 +9,6 @@
 
 namespace sg::cmd {
 
-constexpr const char* default_method = "colamd";
-
 struct MethodOptions {
   std::vector<std::string> names;  // empty: the file's order if sg-order left one, else the default
   std::uint64_t seed = 0;

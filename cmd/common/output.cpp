@@ -128,10 +128,6 @@ void Output::keep_rows() {
   keep_ = true;
 }
 
-bool Output::terminal() const {
-  return path_.empty() && ::isatty(descriptor_) != 0;
-}
-
 void Output::commit() {
   if (before_commit) before_commit();
   pass_on_buffer();

@@ -34,8 +34,8 @@ class Output final : public formats::Sink {
   void keep_rows();
   void commit();
 
-  bool terminal() const;                // whether it goes to one
-  std::function<void()> before_commit;  // passes on what is held back (table.h)
+  bool terminal() const { return terminal_; }  // whether it goes to one
+  std::function<void()> before_commit;         // passes on what is held back (table.h)
 
  private:
   void open();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cmd/common/options.h"
+#include "lib/text/line.h"
 #include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
@@ -80,34 +81,11 @@ std::string json_of_cell(const Cell& cell) {
   return missing ? "null" : text(cell);
 }
 
-// A word in a table: a tab or the end of a line in it (a file's name may have them) would be one of the table's.
-std::string escaped(const std::string& word) {
-  if (word.find_first_of("\t\n\r\\") == word.npos) return word;
-  std::string result;
-  for (const char c : word) {
-    switch (c) {
-      case '\t':
-        result += "\\t";
-        break;
-      case '\n':
-        result += "\\n";
-        break;
-      case '\r':
-        result += "\\r";
-        break;
-      case '\\':
-        result += "\\\\";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-// What a row of a table has; for eyes, numbers that are not whole have six digits.
+// What a row of a table has. A tab or the end of a line in a word (a file's name may have them) would be one of the
+// table's. For eyes, numbers that are not whole have six digits.
 std::string printed(const Cell& cell, bool rounded) {
-  if (const auto* word = std::get_if<std::string>(&cell.value)) return escaped(*word);
+  if (const auto* word = std::get_if<std::string>(&cell.value))
+    return text::escaped(*word, "\t\n\r\\");
   const auto* number = std::get_if<double>(&cell.value);
   if (!number || !rounded) return text(cell);
   char digits[32];

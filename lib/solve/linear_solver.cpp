@@ -32,11 +32,7 @@ std::span<const Backend> backends() {
 }
 
 std::string backend_names() {
-  std::string names;
-  for (const Backend& backend : table) {
-    names += (names.empty() ? "" : ", ") + std::string(backend.name);
-  }
-  return names;
+  return text::listed(text::names_of(table));
 }
 
 const Backend& find_backend(std::string_view name) {

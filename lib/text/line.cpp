@@ -13,6 +13,16 @@ std::string quoted(std::string_view word) {
   return text + (word.size() > longest ? "...'" : "'");
 }
 
+std::string escaped(std::string_view text, std::string_view special) {
+  constexpr std::string_view plain = "\t\n\r\x1b\\", letters = "tnre\\";
+  std::string result;
+  for (const char c : text) {
+    const auto at = special.find(c) == special.npos ? plain.npos : plain.find(c);
+    at == plain.npos ? result += c : (result += '\\') += letters[at];
+  }
+  return result;
+}
+
 std::int64_t read_id(std::string_view& rest, std::string_view what) {
   const auto word = next_word(rest);
   if (word.empty()) throw BadLine{"the line ends before " + std::string(what)};

@@ -19,6 +19,9 @@ struct BadLine {
 // characters.
 std::string quoted(std::string_view word);
 
+// The text with those characters of `special` in it as C writes them: \t, \n, \r, \e, and a backslash.
+std::string escaped(std::string_view text, std::string_view special);
+
 // `what` names the id in the BadLine of one that is missing, no whole number of 0 or more, or
 // above 2^63 - 1.
 std::int64_t read_id(std::string_view& rest, std::string_view what);

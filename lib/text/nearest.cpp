@@ -50,11 +50,15 @@ std::string nearest(std::string_view word, const std::vector<std::string>& words
   return begun == words.end() ? "" : *begun;
 }
 
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 std::string suggestion(std::string_view word, const std::vector<std::string>& words) {
   const std::string near = nearest(word, words);
-  std::string text = near.empty() ? "there are " : "did you mean " + near + "? There are ";
-  for (std::size_t k = 0; k < words.size(); ++k) text += (k ? ", " : "") + words[k];
-  return text;
+  return (near.empty() ? "there are " : "did you mean " + near + "? There are ") + listed(words);
 }
 
 std::string no_such(std::string_view kind, std::string_view word,

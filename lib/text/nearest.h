@@ -11,6 +11,9 @@ namespace sg::text {
 // at most a third of its length; else one that `word` begins; else empty.
 std::string nearest(std::string_view word, const std::vector<std::string>& words);
 
+// "amd, colamd"
+std::string listed(const std::vector<std::string>& words);
+
 // "did you mean colamd? There are amd, colamd", or "there are amd, colamd" where nothing is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& words);
 
