@@ -16,8 +16,8 @@ using graph::Severity;
 struct Options {
   cmd::Inputs inputs;
   cmd::OutputOptions output;
+  cmd::TableOptions table;
   std::string consumer;
-  bool json = false;
 };
 
 struct Message {
@@ -49,8 +49,10 @@ std::vector<Message> messages(const std::string& path, const Options& options) {
   if (graph.vertices() == 0)
     found.push_back({file, 0, Severity::error, "there is no vertex and no edge in it"});
   graph::Findings findings = graph::check(graph);
-  const auto consumer = graph::consumer(options.consumer).value_or(graph::Consumer::any);
-  std::ranges::move(graph::check_for(graph, consumer), std::back_inserter(findings));
+  const auto consumer = graph::consumer(options.consumer);
+  if (consumer || format == "g2o")  // whose reader would be given the text of another format?
+    std::ranges::move(graph::check_for(graph, consumer.value_or(graph::Consumer::any)),
+                      std::back_inserter(findings));
   if (std::ranges::none_of(findings, [](const auto& f) { return f.severity == Severity::error; }))
     std::ranges::move(factor::check_plausible(graph), std::back_inserter(findings));
   std::ranges::stable_sort(findings, {}, &graph::Finding::line);
@@ -78,20 +80,26 @@ const std::vector<cmd::Column<Message>> columns{
     {"cause", "What is wrong", &Message::cause}};
 
 std::string text_of(const Message& found) {
-  const std::string place = found.line ? found.file + ":" + std::to_string(found.line) : found.file;
+  const std::string file = cmd::one_line(found.file);
+  const std::string place = found.line ? file + ":" + std::to_string(found.line) : file;
   return place + ": " + std::string(name(found.severity)) + ": " + found.cause + "\n";
 }
 
 int check(const cmd::Command& command, const Options& options) {
+  cmd::check_form(command.app);
+  const cmd::TableOptions& form = options.table;
+  const bool tabled = !form.columns.empty() || form.json || form.tsv || form.table;
+  if (!tabled) cmd::refuse_table(command.app, "without -f, --json, --tsv or --table");
   cmd::Output output(options.output.path);
-  cmd::Table table({{}, true, true}, columns, {}, output);
+  std::optional<cmd::Table<Message>> table;
+  if (tabled) table.emplace(form, columns, cmd::Given{}, output);
   bool errors = false;
   for (const auto& path : options.inputs.paths) {
     for (const Message& found : messages(path, options)) {
       errors = errors || found.severity == Severity::error;
       if (command.quiet && found.severity != Severity::error) continue;
-      if (options.json) {
-        table.row(found);
+      if (table) {
+        table->row(found);
       } else {
         output.write(text_of(found));
       }
@@ -111,7 +119,7 @@ int main(int argc, char** argv) {
       .add_option("--for", options.consumer, "Also what g2o, gtsam or toro cannot take of it")
       ->option_text("PROGRAM")
       ->check(cmd::one_of({"g2o", "gtsam", "toro"}));
-  command.app.add_flag("--json", options.json, "One JSON object a finding");
   cmd::add_output(command, options.output);
+  cmd::add_table(command, options.table, columns);
   return cmd::run_status(command, argc, argv, [&] { return check(command, options); });
 }

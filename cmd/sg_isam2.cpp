@@ -17,10 +17,11 @@ using namespace sg;
 namespace {
 
 struct Options {
-  cmd::Input input;
+  cmd::Inputs inputs;
   cmd::OutputOptions output;
   cmd::TableOptions table;
   solve::Isam2Options isam;
+  std::vector<std::string> orderings{isam.ordering};
   Index min_obs = 1;
   Index every = 1;
   bool from_file = false;
@@ -59,6 +60,8 @@ double elimination_seconds(const solve::Isam2& isam, const graph::Order& order) 
 }
 
 struct Row {
+  const std::string& file;
+  const std::string& ordering;
   const solve::Isam2& isam;
   Index step;
   Index factors;
@@ -72,6 +75,8 @@ struct Row {
 };
 
 const std::vector<cmd::Column<Row>> columns{
+    {"file", "The file", [](Row& row) { return row.file; }, "several files"},
+    {"order", "The ordering", [](Row& row) { return row.ordering; }, "several orderings"},
     {"step", "From 0", &Row::step},
     {"variables", "That are there, new ones included", [](Row& row) { return row.isam.variables; }},
     {"factors", "That are there, new ones included", &Row::factors},
@@ -107,12 +112,14 @@ void add_thresholds(CLI::App& app, solve::Isam2Options& isam) {
 }
 
 void add_options(cmd::Command& command, Options& options) {
-  cmd::add_input(command, options.input);
-  options.input.options.unknown_edge = factor::has_no_model;
+  cmd::add_inputs(command, options.inputs);
+  options.inputs.options.unknown_edge = factor::has_no_model;
   auto& app = command.app;
-  app.add_option("-m,--method,--ordering", options.isam.ordering,
-                 "Ordering to eliminate anew by (default: colamd)")
-      ->option_text("METHOD");
+  app.add_option("-m,--method,--ordering", options.orderings,
+                 "Orderings to eliminate anew by, a replay each\n(default: colamd)")
+      ->option_text("METHOD,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   add_thresholds(app, options.isam);
   cmd::add_entry(app, options.min_obs, "A landmark");
   app.add_option_function<std::string>(
@@ -128,7 +135,8 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_table(command, options.table, columns);
 }
 
-void replay(const Options& options, solve::Isam2Replay& replay, cmd::Table<Row>& table) {
+void replay(const std::string& file, const std::string& ordering, const Options& options,
+            solve::Isam2Replay& replay, cmd::Table<Row>& table) {
   cmd::stage("replay", replay.steps.steps);
   for (Index k = 0; k < replay.steps.steps; ++k) {
     cmd::progress(k);
@@ -136,7 +144,7 @@ void replay(const Options& options, solve::Isam2Replay& replay, cmd::Table<Row>&
     const solve::Isam2Report report = solve::replay_step(replay, k);
     const double seconds = processor_seconds() - start;
     if (k % options.every != 0 && k + 1 < replay.steps.steps) continue;
-    table.row({replay.isam, k, replay.edges.begin[k + 1], report, seconds});
+    table.row({file, ordering, replay.isam, k, replay.edges.begin[k + 1], report, seconds});
   }
 }
 
@@ -167,22 +175,38 @@ void hold_at_first(const cmd::Command& command, factor::Problem& problem) {
             "later edges hold the whole");
 }
 
-void run(const cmd::Command& command, const Options& options) {
-  solve::kernels();  // a wrong call is told before a long read
-  cmd::check_form(command.app);
-  order::find_ordering(options.isam.ordering);
-  cmd::Output output("");
-  const cmd::Given given{
-      {"--colamd", options.colamd}, {"--chi2", options.chi2}, {"--batch", options.batch}};
-  cmd::Table table(options.table, columns, given, output);
-  const Graph graph = cmd::read(options.input);
+void run_file(const cmd::Command& command, const Options& options, const std::string& path,
+              cmd::Table<Row>& table) {
+  const Graph graph = cmd::read(options.inputs, path);
   cmd::stage("start");
   factor::Problem problem = factor::make_problem(graph);
   hold_at_first(command, problem);
-  solve::Isam2Replay state =
-      solve::make_isam2_replay(problem, options.isam, options.min_obs, options.from_file);
-  replay(options, state, table);
-  if (!options.output.path.empty()) write_graph(command, options, problem, state);
+  for (const std::string& ordering : options.orderings) {
+    solve::Isam2Options isam = options.isam;
+    isam.ordering = ordering;
+    solve::Isam2Replay state =
+        solve::make_isam2_replay(problem, isam, options.min_obs, options.from_file);
+    replay(path, ordering, options, state, table);
+    if (!options.output.path.empty()) write_graph(command, options, problem, state);
+  }
+}
+
+void run(const cmd::Command& command, const Options& options) {
+  solve::kernels();  // a wrong call is told before a long read
+  cmd::check_form(command.app);
+  for (const std::string& ordering : options.orderings) order::find_ordering(ordering);
+  const bool several = options.inputs.paths.size() > 1;
+  const bool several_orderings = options.orderings.size() > 1;
+  if (several || several_orderings)
+    cmd::refuse(command.app, {"-o"}, "with several files or orderings: one graph goes to one file");
+  cmd::Output output("");
+  const cmd::Given given{{"several files", several},
+                         {"several orderings", several_orderings},
+                         {"--colamd", options.colamd},
+                         {"--chi2", options.chi2},
+                         {"--batch", options.batch}};
+  cmd::Table table(options.table, columns, given, output);
+  for (const std::string& path : options.inputs.paths) run_file(command, options, path, table);
   output.commit();
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t most_counted = 1'000'000'000'000;
 
 struct Options {
-  cmd::Input input{"", {}};
+  cmd::Inputs inputs{{}, {}};
   cmd::OutputOptions output;
   cmd::TableOptions table;
   std::optional<std::int64_t> poses;
@@ -25,6 +25,7 @@ struct Options {
 };
 
 struct Row {
+  std::string file;
   double r;
   std::optional<elim::Sizes> sizes;
   std::optional<double> ec;
@@ -42,6 +43,7 @@ double full(const elim::Sizes& sizes, double /*r*/) {
 }
 
 const std::vector<cmd::Column<Row>> columns{
+    {"file", "The file", &Row::file, "several files"},
     {"r", "The rate: one pose, or one observation, in r is kept", &Row::r},
     {"full", "(L + X) X^2: without pruning", [](Row& row) { return row.by(full); },
      "a graph or counts"},
@@ -59,7 +61,7 @@ const std::vector<cmd::Column<Row>> columns{
 };
 
 void add_options(cmd::Command& command, Options& options) {
-  cmd::add_input(command, options.input);
+  cmd::add_inputs(command, options.inputs);
   auto& app = command.app;
   app.add_option("-r,--rate", options.rates, "Rates of pruning, 1 or more (default: 1)")
       ->option_text("R,...")
@@ -87,14 +89,7 @@ void add_options(cmd::Command& command, Options& options) {
 }
 
 // Nothing, and a word why, of a graph that the forms say nothing of.
-std::optional<elim::Sizes> sizes_of(const cmd::Command& command, const Options& options) {
-  if (options.poses) {
-    return elim::Sizes{static_cast<double>(*options.poses) * options.pose_dim,
-                       static_cast<double>(options.landmarks) * options.landmark_dim};
-  }
-  cmd::Input input = options.input;
-  if (input.path.empty()) input.path = "-";
-  const Graph graph = cmd::read(input);
+std::optional<elim::Sizes> sizes_of(const cmd::Command& command, const Graph& graph) {
   const elim::Sizes sizes = elim::sizes(graph);
   if (sizes.poses == 0) throw text::input_error(graph.file, 0, "no pose in it to predict from");
   const double sighted = elim::sighted(graph);
@@ -104,7 +99,8 @@ std::optional<elim::Sizes> sizes_of(const cmd::Command& command, const Options& 
                          "every landmark, " +
                          (sighted > 0 ? "and here a landmark is seen from " +
                                             text::format_number(std::round(1000 * sighted) / 10) +
-                                            " % of the poses"
+                                            " % of the poses, where they want " +
+                                            text::format_number(100 * elim::least_sighted) + " %"
                                       : std::string("and here there is none")));
   return std::nullopt;
 }
@@ -115,16 +111,28 @@ void predict(const cmd::Command& command, const Options& options) {
   cmd::at_most_one(app, {{"--poses", "counts without a graph"}, {"FILE", "is a graph"}});
   if (!options.poses)
     cmd::refuse(app, {"--landmarks", "--pose-dim", "--landmark-dim"}, "without --poses");
-  if (options.poses || (options.ec && options.input.path.empty()))
+  std::vector<std::string> paths = options.inputs.paths;
+  if (paths.empty() && !options.poses && !options.ec) paths = {"-"};
+  if (paths.empty())
     cmd::refuse(app, {"--from", "--vertex", "--edge", "--params", "--alias", "--skip-unknown"},
                 "where no graph is read");
-  const bool sized = options.poses || !options.ec || !options.input.path.empty();
   cmd::Output output(options.output.path);
   cmd::Table table(options.table, columns,
-                   {{"a graph or counts", sized}, {"--ec", options.ec.has_value()}}, output);
-  const auto sizes = sized ? sizes_of(command, options) : std::nullopt;
-  cmd::stage("predict");
-  for (const double r : options.rates) table.row({r, sizes, options.ec});
+                   {{"several files", paths.size() > 1},
+                    {"a graph or counts", options.poses || !paths.empty()},
+                    {"--ec", options.ec.has_value()}},
+                   output);
+  const auto rows = [&](const std::string& file, const std::optional<elim::Sizes>& sizes) {
+    cmd::stage("predict");
+    for (const double r : options.rates) table.row({file, r, sizes, options.ec});
+  };
+  if (options.poses)
+    rows("", elim::Sizes{static_cast<double>(*options.poses) * options.pose_dim,
+                         static_cast<double>(options.landmarks) * options.landmark_dim});
+  else if (paths.empty())
+    rows("", std::nullopt);
+  for (const std::string& path : paths)
+    rows(path, sizes_of(command, cmd::read(options.inputs, path)));
   output.commit();
 }
 

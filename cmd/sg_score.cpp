@@ -118,14 +118,22 @@ score::Trajectory read_trajectory(const std::string& path, formats::ReadOptions 
   return score::trajectory(formats::read_graph(path, options));
 }
 
-// Columns of a reference are asked for in vain without one.
-void check_columns(const Options& options) {
+// Columns of a reference are asked for in vain without one, and options without their columns.
+void check_columns(const CLI::App& app, const Options& options) {
   for (const auto& column : columns) {
     const auto& asked = options.table.columns;
     const bool wanted = std::find(asked.begin(), asked.end(), column.name) != asked.end();
     if (wanted && column.needs == "--reference" && options.reference.empty())
       throw text::usage_error("column '" + column.name + "' wants a --reference");
   }
+  const auto shows = [&](std::initializer_list<std::string_view> names) {
+    return options.table.columns.empty() || std::ranges::any_of(names, [&](std::string_view name) {
+             return std::ranges::count(options.table.columns, name) > 0;
+           });
+  };
+  if (!shows({"log_trees", "lambda2"}))
+    cmd::refuse(app, {"--weights"}, "without a column log_trees or lambda2");
+  if (!shows({"order", "ec"})) cmd::refuse(app, {"-m", "--seed"}, "without a column order or ec");
 }
 
 // What makes a comparison other than it looks.
@@ -146,7 +154,7 @@ void run(const cmd::Command& command, const Options& options) {
   cmd::check_form(command.app);
   if (options.reference.empty()) cmd::refuse(command.app, {"--align"}, "without --reference");
   cmd::check(options.method);
-  check_columns(options);
+  check_columns(command.app, options);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
                          {"--reference", !options.reference.empty()}};
   cmd::Output output(options.output.path);

@@ -25,6 +25,7 @@ namespace {
 
 // How long elimination takes, as --time measures it.
 struct Timing {
+  std::string file;
   std::string order;
   std::string backend;
   int threads;
@@ -37,6 +38,7 @@ struct Timing {
 };
 
 const std::vector<cmd::Column<Timing>> time_columns{
+    {"file", "The file", &Timing::file, "several files"},
     {"order", "The ordering", &Timing::order},
     {"backend", "What eliminates", &Timing::backend},
     {"threads", "How many it may use", &Timing::threads},
@@ -51,7 +53,7 @@ const std::vector<cmd::Column<Timing>> time_columns{
 };
 
 struct Options {
-  cmd::Input input;
+  cmd::Inputs inputs;
   cmd::OutputOptions output;
   cmd::TableOptions table;
   bool gauss_newton = false;
@@ -70,8 +72,8 @@ struct Options {
 constexpr int most_iterations = 100;
 
 void add_options(cmd::Command& command, Options& options) {
-  cmd::add_input(command, options.input);
-  options.input.options.unknown_edge = factor::has_no_model;
+  cmd::add_inputs(command, options.inputs);
+  options.inputs.options.unknown_edge = factor::has_no_model;
   auto& app = command.app;
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
   app.add_option(
@@ -152,7 +154,8 @@ Timing timed(const Options& options, const factor::Problem& problem, const facto
     if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
     times.push_back(seconds_since(begin));
   }
-  return {label,
+  return {problem.graph->file,
+          label,
           options.backend,
           options.threads,
           pattern.variables(),
@@ -164,9 +167,7 @@ Timing timed(const Options& options, const factor::Problem& problem, const facto
 }
 
 void print_times(const Options& options, const factor::Problem& problem,
-                 const factor::Values& values) {
-  cmd::Output output(options.output.path);
-  cmd::Table table(options.table, time_columns, {}, output);
+                 const factor::Values& values, cmd::Table<Timing>& table) {
   factor::LinearSystem system = factor::make_linear_system(problem);
   factor::linearize(problem, values, parse_kernel(options.kernel), system);
   const graph::GraphPattern variables =
@@ -178,8 +179,16 @@ void print_times(const Options& options, const factor::Problem& problem,
     cmd::stage("eliminate", options.runs);
     table.row(timed(options, problem, values, system, method.label, order));
   }
-  output.commit();
 }
+
+// The number alone; of several files, each after the file's name.
+void print_chi2(const Options& options, const factor::Problem& problem,
+                const factor::Values& values, cmd::Output& output) {
+  const double chi2 = factor::finite_chi2(problem, values, parse_kernel(options.kernel));
+  if (options.inputs.paths.size() > 1) output.write(problem.graph->file + "\t");
+  output.write(text::format_number(chi2) + "\n");
+}
+
 void print_iteration(const solve::Iteration& iteration) {
   std::string line = std::to_string(iteration.number);
   for (const double number : {iteration.chi2, iteration.lambda, iteration.step})
@@ -276,6 +285,9 @@ void check_call(const cmd::Command& command, const Options& options) {
   if (options.runs == 0) cmd::refuse_table(app, "without --time");
   if (options.runs == 0 && options.method.names.size() > 1)
     throw text::usage_error("-m: one ordering to optimize by; several are compared by --time");
+  if (!options.chi2 && options.runs == 0 && options.inputs.paths.size() > 1)
+    throw text::usage_error(
+        "one graph to optimize, since one comes out; several files are for --time and --chi2");
 }
 
 void run(const cmd::Command& command, const Options& options) {
@@ -286,22 +298,27 @@ void run(const cmd::Command& command, const Options& options) {
   solve::kernels();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
-  const Graph graph = cmd::read(options.input);
-  cmd::stage("start");
-  const factor::Problem problem = factor::make_problem(graph);
-  factor::Values values =
-      options.from_edges ? factor::initial_values(problem) : factor::start_values(problem);
-  if (options.chi2) {
-    cmd::Output output(options.output.path);
-    output.write(
-        text::format_number(factor::finite_chi2(problem, values, parse_kernel(options.kernel))) +
-        "\n");
-    output.commit();
-  } else if (options.runs > 0) {
-    print_times(options, problem, values);
-  } else {
-    solve(command, options, problem, std::move(values));
+  std::optional<cmd::Output> output;
+  std::optional<cmd::Table<Timing>> times;
+  if (options.chi2 || options.runs > 0) output.emplace(options.output.path);
+  if (options.runs > 0) {
+    const cmd::Given given{{"several files", options.inputs.paths.size() > 1}};
+    times.emplace(options.table, time_columns, given, *output);
   }
+  for (const std::string& path : options.inputs.paths) {
+    const Graph graph = cmd::read(options.inputs, path);
+    cmd::stage("start");
+    const factor::Problem problem = factor::make_problem(graph);
+    factor::Values values =
+        options.from_edges ? factor::initial_values(problem) : factor::start_values(problem);
+    if (options.chi2)
+      print_chi2(options, problem, values, *output);
+    else if (times)
+      print_times(options, problem, values, *times);
+    else
+      solve(command, options, problem, std::move(values));
+  }
+  if (output) output->commit();
 }
 
 }  // namespace

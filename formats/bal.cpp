@@ -221,7 +221,7 @@ Losses bal_losses(const Graph& graph) {
       add_loss(losses, graph.vertex_line[order[k]],
                "ids other than 0, 1, 2, ..., those of cameras before those of points", true);
   }
-  for (Offset line : graph.fix_lines) add_loss(losses, line, graph::fix_tag, false);
+  for (Offset line : graph.fix_lines) add_loss(losses, line, graph::fix_tag, true);
   return losses;
 }
 

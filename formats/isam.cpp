@@ -174,14 +174,14 @@ bool below_a_pose(const Graph& graph, const std::vector<bool>& used, Index v, Id
   return used[v] && graph.role(v) == graph::Role::landmark && graph.id[v] < last;
 }
 
-// What to take off a landmark's id so that reading gives it back; 0 where that cannot be.
-Id first_landmark(const Graph& graph) {
+// Whether the numbers of landmarks give their ids back: reading counts them on from the last pose.
+bool ids_stay(const Graph& graph) {
   const std::vector<bool> used = mentioned(graph);
   const Id last = last_pose(graph, used);
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (below_a_pose(graph, used, v, last)) return 0;
+    if (below_a_pose(graph, used, v, last)) return false;
   }
-  return last + 1;
+  return true;
 }
 
 }  // namespace
@@ -231,15 +231,13 @@ Losses isam_losses(const Graph& graph) {
     if (!used[v]) add_loss(losses, graph.vertex_line[v], "a vertex without an edge", true);
     if (below_a_pose(graph, used, v, last))
       add_loss(losses, graph.vertex_line[v], "the id of a landmark below a pose's", true);
-    if (graph.vertex_line[v] != graph::implied)
-      add_loss(losses, graph.vertex_line[v], "estimates", false);
   }
-  for (Offset line : graph.fix_lines) add_loss(losses, line, graph::fix_tag, false);
   return losses;
 }
 
 void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
-  const Id first = first_landmark(graph);
+  // What is taken off a landmark's id.
+  const Id first = ids_stay(graph) ? last_pose(graph, mentioned(graph)) + 1 : 0;
   std::string out;
   for (Index e = 0; e < graph.edges(); ++e) {
     if (!holds_edge(graph, e)) continue;
@@ -251,6 +249,16 @@ void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
     }
     sink.write(out += '\n');
   }
+  if (!ids_stay(graph)) return;
+  const std::vector<bool> used = mentioned(graph);
+  std::vector<Offset> estimates;  // in the file's order
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (used[v] && graph.vertex_line[v] != graph::implied)
+      estimates.push_back(graph.vertex_line[v]);
+  }
+  std::ranges::sort(estimates);
+  for (const Offset line : estimates) sink.write(kept(graph::line_at(graph, line)).append("\n"));
+  sink.write(kept_fix(graph, [&](Index v) { return used[v]; }));
 }
 
 }  // namespace sg::formats

@@ -165,7 +165,6 @@ Losses toro_losses(const Graph& graph) {
   Losses losses;
   add_edge_losses(losses, graph, holds_edge);
   add_vertex_losses(losses, graph, holds_vertex);
-  for (Offset line : graph.fix_lines) add_loss(losses, line, graph::fix_tag, false);
   return losses;
 }
 
@@ -184,6 +183,7 @@ void write_toro(const Graph& graph, const WriteOptions&, Sink& sink) {
     }
   };
   write_lines(graph, translate, sink);
+  sink.write(kept_fix(graph, [&](Index v) { return holds_vertex(graph, v); }));
 }
 
 }  // namespace sg::formats

@@ -3,6 +3,23 @@
 #include "lib/text/line.h"
 
 namespace sg::formats {
+namespace {
+
+constexpr std::string_view kept_mark = "# sgtools keeps ";
+
+}  // namespace
+
+std::string kept(std::string_view line) {
+  return std::string(kept_mark).append(line);
+}
+
+std::string kept_fix(const Graph& graph, const std::function<bool(Index v)>& holds_vertex) {
+  std::string line(graph::fix_tag);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.fixed[v] && holds_vertex(v)) text::append_number(line, graph.id[v]);
+  }
+  return line == graph::fix_tag ? "" : kept(line += '\n');
+}
 
 std::string translate_lines(std::string_view text, const std::string& file,
                             const Complaint& complaint, const TranslateLine& translate) {
@@ -10,8 +27,13 @@ std::string translate_lines(std::string_view text, const std::string& file,
   out.reserve(text.size() + text.size() / 4);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t mark = out.size();
+    const std::string_view line = text::next_line(text);
     try {
-      translate(text::next_line(text), out);
+      if (line.starts_with(kept_mark)) {
+        out += line.substr(kept_mark.size());
+      } else {
+        translate(line, out);
+      }
     } catch (const text::BadLine& bad) {
       out.resize(mark);
       complaint(text::input_error(file, number, bad.cause));

@@ -14,6 +14,12 @@ namespace sg::formats {
 // Appends a line's translation without its newline.
 using TranslateLine = std::function<void(std::string_view line, std::string& out)>;
 
+// A g2o line that a foreign format has none for and that its programs can do without: kept in a comment, from which
+// translate_lines takes it back.
+std::string kept(std::string_view line);
+// So the FIX line of those of the fixed vertices that the format holds; nothing without one.
+std::string kept_fix(const Graph& graph, const std::function<bool(Index v)>& holds_vertex);
+
 // The translation of every line of `text`, one line for one line. What `translate` throws as
 // BadLine goes to `complaint`, and the line becomes empty.
 std::string translate_lines(std::string_view text, const std::string& file,

@@ -51,11 +51,6 @@ void add_read_options(Command& command, formats::ReadOptions& options) {
   options.warning = [&command](const std::string& text) { warn(command, text); };
 }
 
-// A message is one line, whatever the name of a file has.
-std::string one_line(const std::string& text) {
-  return text::escaped(text, "\n\r\t\x1b");
-}
-
 int report(const Command& command, const text::Error& error) {
   print_error(command.name + ": " + one_line(text::message(error)) + "\n");
   return static_cast<int>(error.fault);
@@ -139,6 +134,10 @@ int guarded(const Command& command, const std::function<int()>& work) {
 }
 
 }  // namespace
+
+std::string one_line(std::string_view text) {
+  return text::escaped(text, "\n\r\t\x1b");
+}
 
 Command::Command(std::string name_, std::string what)
     : app(std::move(what), name_), name(std::move(name_)) {

@@ -46,6 +46,9 @@ int run(Command&& command, int argc, char** argv, void (*add)(Command&, Options&
   return run(command, argc, argv, [&] { work(command, options); });
 }
 
+// The text on one line: a message stays one, whatever the name of a file has in it.
+std::string one_line(std::string_view text);
+
 // "sg-ec: text" on standard error, unless -q.
 void warn(const Command& command, const std::string& text);
 

@@ -14,7 +14,10 @@ Maker add_manhattan(CLI::App& app) {
   add_count(app, "--reach", world->reach, 0, "From so many metres away, in x and in y", 100);
   add_count(app, "--gap", world->gap, 1, "After so many poses at least");
   add_edge_noise(app, *world);
-  return [world] { return writer(world::manhattan(*world)); };
+  return [world, &app] {
+    if (world->loop_chance == 0) cmd::refuse(app, {"--reach", "--gap"}, "with --loops 0");
+    return writer(world::manhattan(*world));
+  };
 }
 
 }  // namespace sg::gen

@@ -4,6 +4,9 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <string>
 
@@ -16,6 +19,26 @@ namespace {
 
 static_assert(sizeof(idx_t) == sizeof(Index));
 
+// What METIS says on standard error, which is of its own affairs: kept from there as long as this lives.
+struct Said {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* stream = ::open_memstream(&text, &size);
+  std::FILE* standard = stderr;
+
+  Said() {
+    if (stream) stderr = stream;
+  }
+  ~Said() {
+    stderr = standard;
+    if (stream) std::fclose(stream);
+    std::free(text);
+  }
+  Said(const Said&) = delete;
+  Said& operator=(const Said&) = delete;
+  bool anything() { return stream && std::fflush(stream) == 0 && size > 0; }
+};
+
 graph::Order order_part(Part& part, std::uint64_t seed) {
   idx_t n = part.adjacency.size();
   idx_t options[METIS_NOPTIONS];
@@ -25,10 +48,13 @@ graph::Order order_part(Part& part, std::uint64_t seed) {
   const bool alike = std::equal(part.dim.begin() + 1, part.dim.end(), part.dim.begin());
   graph::Order order(n);
   graph::Order position(n);
+  Said said;
   const int status =
       METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.items.data(),
                    alike ? nullptr : part.dim.data(), options, order.data(), position.data());
   if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
+  // METIS catches SIGTERM while it works and calls it an error, without a word: it is for whoever would have caught it.
+  if (status == METIS_ERROR && !said.anything()) std::raise(SIGTERM);
   if (status != METIS_OK) {
     throw text::computation_error("METIS failed (status " + std::to_string(status) + ")");
   }

@@ -137,8 +137,9 @@ text::Error singular_error(const NullSpace& open, std::span<const Id> id) {
   }
   const std::string scale = "nothing fixes the scale";
   if (open.undetermined.empty()) {
-    return text::computation_error("the system is singular: " + scale +
-                                   "; FIX a second pose, or solve it without --gn as it starts");
+    return text::computation_error(
+        "the system is singular: " + scale +
+        "; FIX a second pose (sg-solve goes on without, by the damping that --gn and --time lack)");
   }
   return text::computation_error("the system is singular: " + (open.scale ? scale + ", and " : "") +
                                  "the measurements leave " +

@@ -91,7 +91,10 @@ Text unpacked(Text text, const std::string& path) {
       return text_of(unpack<io::zstd_decompressor>(text.view));
     }
   } catch (const std::exception& error) {
-    throw input_error(path, 0, std::string("the compressed data is damaged: ") + error.what());
+    const std::string cause = error.what();  // Boost's words are "bzip2 error: iostream error"
+    throw input_error(
+        path, 0,
+        "the compressed data is damaged" + (cause.ends_with("iostream error") ? "" : ": " + cause));
   }
   return text;
 }

@@ -44,6 +44,11 @@ terminal() {
     [ -z "$output" ]
     [ "${#stderr_lines[@]}" = 1 ]
   done
+  fails 2 "sg-gen: --reach has no effect with --loops 0 (see sg-gen --help)" sg-gen manhattan --loops 0 --reach 3
+  fails 2 "sg-score: --weights has no effect without a column log_trees or lambda2 (see sg-score --help)" \
+    sg-score --weights translation -f ec walk.g2o
+  fails 2 "sg-score: -m has no effect without a column order or ec (see sg-score --help)" sg-score -m amd -f lambda2 walk.g2o
+  fails 2 "sg-check: --no-header has no effect without -f, --json, --tsv or --table (see sg-check --help)" sg-check --no-header walk.g2o
   fails 2 "sg-gen: --noise-pixel has no effect with this --sensor, only with mono and disparity (see sg-gen --help)" \
     sg-gen sine --sensor xyz --noise-pixel 2
   fails 2 "sg-gen: --truth and -o are one file, 'x': each graph needs its own (see sg-gen --help)" sg-gen sine --truth x -o ./x
@@ -120,5 +125,17 @@ walk.g2o" ]
  6 id" ]
   [ "$(sg-score -m amd,id -f order --no-header walk.g2o)" = "amd
 id" ]
+  [ "$(sg-isam2 -m amd,id --every 100 -f file,order,step --no-header walk.g2o figure1.g2o | sort -u | wc -l)" = 8 ]
+  [ "$(sg-isam2 -m amd,colamd --every 100 walk.g2o | head -n 1 | cut -f 1)" = order ]
+  fails 2 "sg-isam2: -o has no effect with several files or orderings: one graph goes to one file (see sg-isam2 --help)" sg-isam2 walk.g2o figure1.g2o -o one.g2o
+  [ "$(sg-predict -r 2,4 -f file,r --no-header figure1.g2o walk.g2o)" = "figure1.g2o	2
+figure1.g2o	4
+walk.g2o	2
+walk.g2o	4" ]
+  sg-rand -r 2 walk.g2o -o less.g2o
+  [ "$(sg-solve --chi2 walk.g2o less.g2o)" = "walk.g2o	$(sg-solve --chi2 walk.g2o)
+less.g2o	$(sg-solve --chi2 less.g2o)" ]
+  [ "$(sg-solve --time 1 -f file,ec --no-header walk.g2o less.g2o)" = "$(sg-ec -f file,ec --no-header walk.g2o less.g2o)" ]
+  fails 2 "sg-solve: one graph to optimize, since one comes out; several files are for --time and --chi2 (see sg-solve --help)" sg-solve walk.g2o less.g2o
   [ "$(sg-solve --time 1 -m amd,id -f order,ec --no-header walk.g2o)" = "$(sg-ec -m amd,id -f order,ec --no-header walk.g2o)" ]
 }
