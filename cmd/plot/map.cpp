@@ -73,6 +73,14 @@ double round_length(double metres) {
   return power;
 }
 
+// Of a round number: without zeros behind.
+std::string short_number(double number) {
+  std::string digits = std::to_string(number);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits;
+}
+
 void draw_scale_bar(cairo_t* page, const PageSize& size, double scale) {
   const double metres = round_length(size.width / 5 / scale);
   const double y = size.height - margin / 3;
@@ -81,12 +89,9 @@ void draw_scale_bar(cairo_t* page, const PageSize& size, double scale) {
   cairo_move_to(page, margin, y);
   cairo_line_to(page, margin + scale * metres, y);
   cairo_stroke(page);
-  std::string label = std::to_string(metres);
-  label.erase(label.find_last_not_of('0') + 1);
-  if (label.back() == '.') label.pop_back();
   cairo_set_font_size(page, 10);
   cairo_move_to(page, margin + scale * metres + 4, y + 3);
-  cairo_show_text(page, (label + " m").c_str());
+  cairo_show_text(page, (short_number(metres) + " m").c_str());
 }
 
 }  // namespace
@@ -159,9 +164,9 @@ void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
   draw_scale_bar(page, size, scale);
 }
 
-void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
-                   const std::array<int, 2>& axes, const Costs& costs) {
-  const auto [points, scale] = placed(graph, axes, size);
+namespace {
+
+void draw_faint_edges(cairo_t* page, const Graph& graph, const std::vector<Point>& points) {
   const std::vector<graph::EdgeRole> roles = graph::edge_roles(graph, graph::pose_index(graph));
   set_color(page, faint_color, 0.25);
   cairo_set_line_width(page, 0.4);
@@ -169,6 +174,14 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
        {graph::EdgeRole::observation, graph::EdgeRole::loop_closure, graph::EdgeRole::odometry}) {
     draw_edges(page, graph, roles, role, points);
   }
+}
+
+}  // namespace
+
+void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
+                   const std::array<int, 2>& axes, const Costs& costs) {
+  const auto [points, scale] = placed(graph, axes, size);
+  draw_faint_edges(page, graph, points);
   for (const Index v : costs.ascending) {
     const double value = std::sqrt(costs.vertex[v] / costs.largest);
     set_color(page, heat(value));
@@ -177,6 +190,51 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
   }
   draw_scale_bar(page, size, scale);
   draw_cost_legend(page, size, costs);
+}
+
+namespace {
+
+// How many times larger than they are ellipses are drawn, the largest with half an axis of `longest` metres: at least
+// once, and as far as the map's margin.
+double enlargement(double longest, double scale) {
+  return longest > 0 ? std::max(1.0, round_length(margin / (longest * scale))) : 1;
+}
+
+void draw_ellipse(cairo_t* page, const Point& at, const score::Ellipse& ellipse, double scale) {
+  cairo_save(page);
+  cairo_translate(page, at.x, at.y);
+  cairo_rotate(page, -ellipse.angle);  // the page's y points down
+  cairo_scale(page, scale * ellipse.axes[0], scale * ellipse.axes[1]);
+  cairo_arc(page, 0, 0, 1, 0, 2 * M_PI);
+  cairo_restore(page);  // or the line would be scaled, too
+}
+
+}  // namespace
+
+void draw_sigma_map(cairo_t* page, const PageSize& size, const Graph& graph,
+                    const std::array<int, 2>& axes, const std::vector<score::Ellipse>& ellipses) {
+  const auto [points, scale] = placed(graph, axes, size);
+  draw_faint_edges(page, graph, points);
+  double longest = 0;
+  for (const score::Ellipse& ellipse : ellipses) longest = std::max(longest, ellipse.axes[0]);
+  const double times = enlargement(longest, scale);
+  cairo_set_line_width(page, 0.5);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    // Cairo draws nothing more once its matrix has become singular.
+    if (!(ellipses[v].axes[1] * times * scale > 1e-6)) continue;
+    const Color color = graph.role(v) == graph::Role::landmark ? landmark_color : path_color;
+    draw_ellipse(page, points[v], ellipses[v], times * scale);
+    set_color(page, color, 0.1);
+    cairo_fill_preserve(page);
+    set_color(page, color, 0.8);
+    cairo_stroke(page);
+  }
+  draw_scale_bar(page, size, scale);
+  set_color(page, {0, 0, 0});
+  cairo_move_to(page, margin, 2 * margin / 3);
+  cairo_show_text(page, ("one standard deviation" +
+                         (times > 1 ? ", drawn " + short_number(times) + " times larger" : ""))
+                            .c_str());
 }
 
 }  // namespace sg::plot
