@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
@@ -9,6 +11,7 @@
 #include "lib/factor/space.h"
 #include "lib/graph/replay.h"
 #include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg::plot {
 namespace {
@@ -73,14 +76,6 @@ double round_length(double metres) {
   return power;
 }
 
-// Of a round number: without zeros behind.
-std::string short_number(double number) {
-  std::string digits = std::to_string(number);
-  digits.erase(digits.find_last_not_of('0') + 1);
-  if (digits.back() == '.') digits.pop_back();
-  return digits;
-}
-
 void draw_scale_bar(cairo_t* page, const PageSize& size, double scale) {
   const double metres = round_length(size.width / 5 / scale);
   const double y = size.height - margin / 3;
@@ -89,9 +84,12 @@ void draw_scale_bar(cairo_t* page, const PageSize& size, double scale) {
   cairo_move_to(page, margin, y);
   cairo_line_to(page, margin + scale * metres, y);
   cairo_stroke(page);
+  std::string label = std::to_string(metres);
+  label.erase(label.find_last_not_of('0') + 1);
+  if (label.back() == '.') label.pop_back();
   cairo_set_font_size(page, 10);
   cairo_move_to(page, margin + scale * metres + 4, y + 3);
-  cairo_show_text(page, (short_number(metres) + " m").c_str());
+  cairo_show_text(page, (label + " m").c_str());
 }
 
 }  // namespace
@@ -194,10 +192,24 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
 
 namespace {
 
-// How many times larger than they are ellipses are drawn, the largest with half an axis of `longest` metres: at least
-// once, and as far as the map's margin.
+// How many times as large as they are ellipses are drawn, the largest with half an axis of `longest` metres: as far as
+// the map's margin.
 double enlargement(double longest, double scale) {
-  return longest > 0 ? std::max(1.0, round_length(margin / (longest * scale))) : 1;
+  return longest > 0 ? round_length(margin / (longest * scale)) : 1;
+}
+
+// The first vertex of a role in every square of some points: more ellipses would hide each other.
+std::vector<Index> spread(const Graph& graph, graph::Role role, const std::vector<Point>& points) {
+  constexpr double square = 12;
+  std::set<std::pair<double, double>> taken;
+  std::vector<Index> result;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) != role) continue;
+    const Point& at = points[v];
+    if (taken.emplace(std::floor(at.x / square), std::floor(at.y / square)).second)
+      result.push_back(v);
+  }
+  return result;
 }
 
 void draw_ellipse(cairo_t* page, const Point& at, const score::Ellipse& ellipse, double scale) {
@@ -219,22 +231,24 @@ void draw_sigma_map(cairo_t* page, const PageSize& size, const Graph& graph,
   for (const score::Ellipse& ellipse : ellipses) longest = std::max(longest, ellipse.axes[0]);
   const double times = enlargement(longest, scale);
   cairo_set_line_width(page, 0.5);
-  for (Index v = 0; v < graph.vertices(); ++v) {
-    // Cairo draws nothing more once its matrix has become singular.
-    if (!(ellipses[v].axes[1] * times * scale > 1e-6)) continue;
-    const Color color = graph.role(v) == graph::Role::landmark ? landmark_color : path_color;
-    draw_ellipse(page, points[v], ellipses[v], times * scale);
-    set_color(page, color, 0.1);
-    cairo_fill_preserve(page);
-    set_color(page, color, 0.8);
-    cairo_stroke(page);
+  for (const auto& [role, color] :
+       {std::pair{graph::Role::landmark, landmark_color}, {graph::Role::pose, path_color}}) {
+    for (const Index v : spread(graph, role, points)) {
+      // Cairo draws nothing more once its matrix has become singular.
+      if (!(ellipses[v].axes[1] * times * scale > 1e-6)) continue;
+      draw_ellipse(page, points[v], ellipses[v], times * scale);
+      set_color(page, color, 0.1);
+      cairo_fill_preserve(page);
+      set_color(page, color, 0.8);
+      cairo_stroke(page);
+    }
   }
   draw_scale_bar(page, size, scale);
   set_color(page, {0, 0, 0});
   cairo_move_to(page, margin, 2 * margin / 3);
-  cairo_show_text(page, ("one standard deviation" +
-                         (times > 1 ? ", drawn " + short_number(times) + " times larger" : ""))
-                            .c_str());
+  cairo_show_text(
+      page,
+      ("one standard deviation, drawn " + text::format_number(times) + " times as large").c_str());
 }
 
 }  // namespace sg::plot

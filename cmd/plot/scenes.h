@@ -34,8 +34,8 @@ struct Costs;
 void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs);
 
-// The same map with all edges faint, and the ellipse of one standard deviation around every vertex; where all are too
-// small to be seen, enlarged by a round factor, which the line at the top says.
+// The same map with all edges faint, and ellipses of one standard deviation around vertices, so many that they do not
+// hide each other; made larger or smaller by a round factor, which the line at the top says.
 void draw_sigma_map(cairo_t* page, const PageSize& size, const Graph& graph,
                     const std::array<int, 2>& axes, const std::vector<score::Ellipse>& ellipses);
 

@@ -54,7 +54,7 @@ edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; do
   edges 0-1 2-3 >parts.g2o
   run -0 --separate-stderr sg-score --no-header -f edges,dopt,sigma_mean,sigma_max parts.g2o
   [ "$output" = "2			" ]
-  [ "$stderr" = "sg-score: parts.g2o: no dopt and no sigma: vertices 2 and 3 are not determined" ]
+  [[ $stderr == "sg-score: parts.g2o: no dopt and no sigma: the system is singular: "*" leave vertices 2 and 3 undetermined"* ]]
   [ "$(sg-score -q --json -f dopt,sigma_max parts.g2o)" = '{"dopt": null, "sigma_max": null}' ]
   [ "$(sg-score -q --no-header --per-pose parts.g2o | tr '\t\n' '-;')" = "0-;1-;2-;3-;" ]
   [ "$(sg-score --no-header -f edges parts.g2o 2>&1)" = 2 ]  # nobody asked
