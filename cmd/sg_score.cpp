@@ -184,7 +184,8 @@ void check_columns(const CLI::App& app, const Options& options) {
   };
   if (!shows({"log_trees", "lambda2"}))
     cmd::refuse(app, {"--weights"}, "without a column log_trees or lambda2");
-  if (!shows({"order", "ec"})) cmd::refuse(app, {"-m", "--seed"}, "without a column order or ec");
+  if (!shows({"order", "ec", "dopt", "sigma_mean", "sigma_max"}))
+    cmd::refuse(app, {"-m", "--seed"}, "on columns for which nothing is eliminated");
 }
 
 // What makes a comparison other than it looks.

@@ -47,7 +47,7 @@ terminal() {
   fails 2 "sg-gen: --reach has no effect with --loops 0 (see sg-gen --help)" sg-gen manhattan --loops 0 --reach 3
   fails 2 "sg-score: --weights has no effect without a column log_trees or lambda2 (see sg-score --help)" \
     sg-score --weights translation -f ec walk.g2o
-  fails 2 "sg-score: -m has no effect without a column order or ec (see sg-score --help)" sg-score -m amd -f lambda2 walk.g2o
+  fails 2 "sg-score: -m has no effect on columns for which nothing is eliminated (see sg-score --help)" sg-score -m amd -f lambda2 walk.g2o
   fails 2 "sg-check: --no-header has no effect without -f, --json, --tsv or --table (see sg-check --help)" sg-check --no-header walk.g2o
   fails 2 "sg-gen: --noise-pixel has no effect with this --sensor, only with mono and disparity (see sg-gen --help)" \
     sg-gen sine --sensor xyz --noise-pixel 2
