@@ -33,8 +33,7 @@ std::string help() {
     text.append(10 - job.name.size(), ' ').append(job.what) += '\n';
   }
   return text +
-         "\nsgtools COMMAND --help says more, and so does man sg-COMMAND; man sgtools is the "
-         "tour.\n"
+         "\nsgtools COMMAND --help and man sg-COMMAND say more; man sgtools is the tour.\n"
          "sgtools --version tells the libraries that it was built with.\n";
 }
 
