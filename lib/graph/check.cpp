@@ -82,7 +82,7 @@ void check_count(Offset line, std::string_view tag, std::int64_t found, std::int
 void check_edge_count(const Graph& graph, Index e, const Numbers& numbers, Findings& findings) {
   const EdgeType& type = graph.type_of_edge(e);
   if (type.counted || type.numbers < 0) return;
-  const auto whole = static_cast<std::size_t>(type.measurement + type.dim * type.dim);
+  const auto whole = std::size_t(type.measurement) + std::size_t(type.dim) * std::size_t(type.dim);
   check_count(graph.edge_line[e], type.tag, std::ssize(numbers), type.numbers, findings,
               type.dim > 1 && numbers.size() == whole
                   ? ": a whole matrix where its upper triangle belongs is read wrongly"

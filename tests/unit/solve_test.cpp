@@ -277,8 +277,8 @@ TEST_CASE("a change of scale is told from other motions", "[solve]") {
     }
   }
   CHECK(failure(text, gauss_newton_options()) ==
-        "the system is singular: nothing fixes the scale; FIX a second pose, or solve it without "
-        "--gn as it starts");
+        "the system is singular: nothing fixes the scale; FIX a second pose (sg-solve goes on "
+        "without, by the damping that --gn and --time lack)");
   const Graph graph = graph_of(text);
   Setup setup(random, graph);
   const auto scaling = factor::free_scaling(setup.problem, setup.values, setup.system);
