@@ -260,17 +260,17 @@ void merge_revisits(Keyframing& kf, const Revisit& revisit) {
   const graph::Lists<> closures = graph::grouped(later, pose_count(kf.poses));
   for (Index k = 0; k < pose_count(kf.poses); ++k) {
     if (kf.graph.fixed[kf.poses.pose[k]]) continue;
+    std::optional<Moved> best;  // from its host to k
     for (const Index e : closures[k]) {
-      const Moved z = moved(kf, e);
-      const auto [from, way] =
-          z.from == k ? std::pair(z.to, inverse(z.motion)) : std::pair(z.from, z.motion);
-      if (distance(way) > revisit.distance || angle(way) > revisit.angle) continue;
-      const auto best = kf.from_host.find(k);
-      if (best != kf.from_host.end() && distance(best->second) <= distance(way)) continue;
-      kf.from_host.insert_or_assign(k, way);
-      kf.host[k] = from;
+      Moved z = moved(kf, e);
+      if (z.from == k) z = {z.to, z.from, inverse(z.motion)};
+      const bool near = distance(z.motion) <= revisit.distance && angle(z.motion) <= revisit.angle;
+      if (near && (!best || distance(z.motion) < distance(best->motion))) best = std::move(z);
     }
-    kf.merged += is_merged(kf, k);
+    if (!best) continue;
+    kf.host[k] = best->from;
+    kf.from_host.emplace(k, std::move(best->motion));
+    ++kf.merged;
   }
 }
 
