@@ -55,18 +55,6 @@ Motion fuse_from(const Graph& graph, const graph::PoseIndex& poses, Index from,
   return fuse(motions, needs_estimate ? estimate(graph, poses.pose[from]) : SE3{});
 }
 
-// The motion of step k, from pose k - 1 to pose k. Several edges are fused.
-Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
-                   const graph::Lists<>& odometry, Index k) {
-  std::vector<Motion> motions;
-  for (Index e : odometry[k]) {
-    const Motion forward_or_back = motion(graph, e).value();
-    const bool back = graph.edge(e)[0] == poses.pose[k];
-    motions.push_back(back ? inverse(forward_or_back) : forward_or_back);
-  }
-  return fuse_from(graph, poses, k - 1, motions);
-}
-
 // Nearest keyframe of every pose within its segment, the earlier of two equally near.
 std::vector<Index> nearest_keyframes(const graph::Lists<>& odometry,
                                      const std::vector<bool>& keyframe) {
@@ -318,6 +306,18 @@ graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses)
   return graph::grouped(step, pose_count(poses));
 }
 
+Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
+                   const graph::Lists<>& odometry, Index k) {
+  require_composable(graph, odometry, k);
+  std::vector<Motion> motions;
+  for (Index e : odometry[k]) {
+    const Motion forward_or_back = motion(graph, e).value();
+    const bool back = graph.edge(e)[0] == poses.pose[k];
+    motions.push_back(back ? inverse(forward_or_back) : forward_or_back);
+  }
+  return fuse_from(graph, poses, k - 1, motions);
+}
+
 std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& poses,
                                    const graph::Lists<>& odometry, const KeyframeRule& rule) {
   const Index n = pose_count(poses);
@@ -327,7 +327,6 @@ std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& p
     const bool start = odometry[k].empty();
     if (start) first = k;
     if (!start && rule.rate == 0) {
-      require_composable(graph, odometry, k);
       const Motion step = step_motion(graph, poses, odometry, k);
       travelled += distance(step);
       turned += angle(step);

@@ -51,6 +51,11 @@ struct KeyframingOptions {
 // The odometry edges of every step: step k leads from pose k - 1 to pose k.
 graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses);
 
+// The motion of step k, from pose k - 1 to pose k; several edges are fused. Throws an input Error where they are of no
+// composable type.
+Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
+                   const graph::Lists<>& odometry, Index k);
+
 // Throws an input Error where distance or angle cannot be measured, for a step whose edges are of
 // no composable type.
 std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& poses,
