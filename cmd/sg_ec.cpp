@@ -159,7 +159,7 @@ const std::vector<cmd::Column<EdgeRow>> edge_columns{
     {"price", "What EC would lose without it", &EdgeRow::price},
     {"share", "Of EC",
      [](EdgeRow& row) { return row.ec > 0 ? elim::to_double(row.price) / row.ec : 0; }},
-    {"free", "yes where that is nothing, else no", [](EdgeRow& row) { return row.price == 0; }},
+    {"free", "yes where its price is 0, else no", [](EdgeRow& row) { return row.price == 0; }},
 };
 
 void edge_rows(cmd::Table<EdgeRow>& table, const Subject& subject) {

@@ -42,11 +42,10 @@ void add_options(cmd::Command& command, Options& options) {
                   "A keyframe goes if PART of its landmarks is seen\nfrom N others")
       ->option_text("PART,N");
   command.app
-      .add_option(
-          "--revisit", options.revisit,
-          "A keyframe that a closure ties to an earlier one\nwithin D metres and A degrees is "
-          "merged into it")
-      ->option_text("D,A");
+      .add_option("--revisit", options.revisit,
+                  "A keyframe that a closure ties to an earlier one\nwithin DIST metres and ANGLE "
+                  "degrees joins it")
+      ->option_text("DIST,ANGLE");
   command.app
       .add_option(
           "--loops", options.loops,
@@ -102,8 +101,8 @@ std::optional<prune::Revisit> revisit_rule(const std::string& text) {
   const auto numbers = two_numbers(text);
   if (numbers && (*numbers)[0] >= 0 && (*numbers)[1] >= 0)
     return {{(*numbers)[0], (*numbers)[1] * std::numbers::pi / 180}};
-  throw text::usage_error("--revisit wants D,A, metres and degrees of 0 or more, not '" + text +
-                          "'");
+  throw text::usage_error("--revisit wants DIST,ANGLE, metres and degrees of 0 or more, not '" +
+                          text + "'");
 }
 
 // Throws a usage Error unless the call says once how many keyframes there are. With --revisit all will do.

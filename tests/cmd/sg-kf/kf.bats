@@ -83,7 +83,7 @@ setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
       sg-kf --covisible "$wrong" walk.g2o
   done
   for wrong in 1 1, -1,3 1,-3 inf,3 1,2,3; do
-    fails 2 "sg-kf: --revisit wants D,A, metres and degrees of 0 or more, not '$wrong' (see sg-kf --help)" \
+    fails 2 "sg-kf: --revisit wants DIST,ANGLE, metres and degrees of 0 or more, not '$wrong' (see sg-kf --help)" \
       sg-kf "--revisit=$wrong" walk.g2o
   done
 }
