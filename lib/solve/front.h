@@ -39,6 +39,8 @@ struct Front {
   int f;  // frontal scalars
   int n;  // all rows: frontal, separator, right-hand side
 
+  int s() const { return n - f - 1; }  // separator scalars
+
   int ld_l() const { return round_up(n); }
   int ld_u() const { return round_up(n - f); }
   std::int64_t size_l() const { return std::int64_t{f} * ld_l(); }
