@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "lib/solve/assembly.h"
 
@@ -20,42 +20,81 @@ Piece l21(const Front& front) {
   return {front.l + front.f, front.s(), front.f, Eigen::OuterStride<>(front.ld_l())};
 }
 
-// The covariance of a clique's frontals, and theirs with the separator, from the separator's.
-struct Below {
-  MatrixXd frontal;  // S_ff
-  MatrixXd cross;    // S_sf
+// A matrix as kernels want it: rows that mean nothing behind the last one, up to a lane.
+struct Padded {
+  int rows = 0;
+  MatrixXd numbers;
+
+  int columns() const { return static_cast<int>(numbers.cols()); }
+  int ld() const { return static_cast<int>(numbers.rows()); }
+  auto view() { return numbers.topRows(rows); }
+  auto view() const { return numbers.topRows(rows); }
 };
 
-Below below(const Front& front, const MatrixXd& separator) {
-  const int f = front.f, s = front.s();
-  Below result;
-  const MatrixXd root =
-      l11(front).triangularView<Eigen::Lower>().solve(MatrixXd::Identity(f, f));  // L11^-1
-  result.frontal.noalias() = root.transpose() * root;
-  if (s == 0) return result;
-  const MatrixXd k = l21(front) * root;
-  result.cross.noalias() = -separator * k;
-  result.frontal.noalias() -= k.transpose() * result.cross;
+Padded padded(int rows, int columns) {
+  return {rows, MatrixXd(round_up(rows), columns)};
+}
+
+Padded transposed(const Padded& matrix) {
+  Padded result = padded(matrix.columns(), matrix.rows);
+  result.view() = matrix.view().transpose();
   return result;
 }
 
-MatrixXd whole(const Below& below, const MatrixXd& separator) {
-  const auto f = below.frontal.rows(), s = below.cross.rows();
-  MatrixXd joint(f + s, f + s);
-  joint.topLeftCorner(f, f) = below.frontal;
+// -a b'
+Padded negative_product(const Padded& a, const Padded& b) {
+  Padded c = padded(a.rows, b.rows);
+  kernels().negative_product(c.numbers.data(), c.ld(), a.numbers.data(), a.ld(), b.numbers.data(),
+                             b.ld(), a.rows, b.rows, a.columns());
+  return c;
+}
+
+// What a clique's frontals have, from their separator's covariance.
+struct Below {
+  MatrixXd frontal;  // S_ff
+  Padded cross;      // -S_sf
+};
+
+Below below(const Front& front, const Padded& separator) {
+  const int f = front.f, s = front.s();
+  Padded root = padded(f, f);  // L11^-T
+  kernels().invert(front, root.numbers.data());
+  Below result;
+  result.frontal = -negative_product(root, root).view();
+  if (s == 0) return result;
+  Padded k = padded(s, f);  // -K
+  kernels().negative_product(k.numbers.data(), k.ld(), front.l + f, front.ld_l(),
+                             root.numbers.data(), root.ld(), s, f, f);
+  const Padded kt = transposed(k);
+  result.cross = negative_product(separator, kt);
+  result.frontal += negative_product(kt, transposed(result.cross)).view();
+  return result;
+}
+
+Padded whole(const Below& below, const Padded& separator) {
+  const auto f = static_cast<int>(below.frontal.rows()), s = separator.rows;
+  Padded joint = padded(f + s, f + s);
+  joint.view().topLeftCorner(f, f) = below.frontal;
   if (s == 0) return joint;
-  joint.bottomLeftCorner(s, f) = below.cross;
-  joint.topRightCorner(f, s) = below.cross.transpose();
-  joint.bottomRightCorner(s, s) = separator;
+  joint.view().bottomLeftCorner(s, f) = -below.cross.view();
+  joint.view().topRightCorner(f, s) = -below.cross.view().transpose();
+  joint.view().bottomRightCorner(s, s) = separator.view();
   return joint;
 }
 
 // Of the rows that these runs take a child's separator to; the last run ends with the right-hand side's.
-MatrixXd gathered(const MatrixXd& joint, std::span<const Run> runs) {
-  std::vector<int> row(rows_covered(runs));
-  for (const Run& run : runs) std::iota(&row[run.from], &row[run.from] + run.length, run.to);
-  row.pop_back();
-  return joint(row, row);
+Padded gathered(const Padded& joint, std::span<const Run> runs) {
+  const int s = rows_covered(runs) - 1;
+  Padded result = padded(s, s);
+  for (const Run& columns : runs) {
+    const int width = std::min(columns.length, s - columns.from);
+    for (const Run& rows : runs) {
+      const int height = std::min(rows.length, s - rows.from);
+      result.numbers.block(rows.from, columns.from, height, width) =
+          joint.numbers.block(rows.to, columns.to, height, width);
+    }
+  }
+  return result;
 }
 
 void set_blocks(const Elimination& e, Index c, const MatrixXd& frontal,
@@ -94,16 +133,18 @@ void each_row(const Elimination& e, std::span<const Index> variables, const auto
 
 std::vector<MatrixXd> marginal_covariances(Elimination& e) {
   std::vector<MatrixXd> blocks(e.dim.size());
-  std::vector<MatrixXd> separator(e.tree.cliques());  // of every clique that waits for its turn
+  std::vector<Padded> separator(e.tree.cliques());  // of every clique that waits for its turn
   for (Index c = e.tree.cliques() - 1; c >= 0; --c) {
     const bool leaf = e.children[c].empty();
     if (leaf && e.tree.parent[c] >= 0) continue;  // with its parent, lest all leaves wait at once
-    const MatrixXd joint = whole(below(e.front(c), separator[c]), separator[c]);
-    separator[c].resize(0, 0);
-    set_blocks(e, c, joint, blocks);
+    const Padded above = std::exchange(separator[c], {});
+    const Below here = below(e.front(c), above);
+    set_blocks(e, c, here.frontal, blocks);
+    if (leaf) continue;
+    const Padded joint = whole(here, above);
     for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i) {
       const Index child = e.children.items[i];
-      MatrixXd of_child = gathered(joint, e.child_runs[i]);
+      Padded of_child = gathered(joint, e.child_runs[i]);
       if (e.children[child].empty()) {
         set_blocks(e, child, below(e.front(child), of_child).frontal, blocks);
       } else {
