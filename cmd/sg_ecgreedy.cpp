@@ -198,15 +198,35 @@ void print_trace(const Options& options, const Graph& graph, std::span<const pru
 
 // As many of the moves as a budget of EC allows; a warning where not even the start is within.
 std::span<const prune::Move> within(const cmd::Command& command, const Subject& subject,
-                                    std::span<const prune::Move> moves, elim::Wide ec,
+                                    std::span<const prune::Move> moves,
                                     const prune::EcGreedyOptions& greedy) {
-  const auto made = moves.first(prune::moves_within(subject.choice, moves, ec, greedy));
+  const auto made = moves.first(prune::moves_within(subject.choice, moves, *greedy.ec, greedy));
   if (made.size() > 1) return made;
   const elim::Wide least = prune::ec_after(subject.choice, made, greedy);
-  if (least > ec)
-    cmd::warn(command, "an EC of " + elim::to_string(ec) +
+  if (least > *greedy.ec)
+    cmd::warn(command, "an EC of " + elim::to_string(*greedy.ec) +
                            " is less than that of the sparsest start, " + elim::to_string(least));
   return made;
+}
+
+// The moves of one budget, with what is free at its end.
+std::vector<prune::Move> moves_at(const cmd::Command& command, const Options& options,
+                                  const Subject& subject, std::span<const prune::Move> moves,
+                                  const prune::EcGreedyOptions& greedy) {
+  if (greedy.ec) moves = within(command, subject, moves, greedy);
+  std::vector<prune::Move> made(moves.begin(), moves.end());
+  if (options.no_free) return made;
+  if (auto free = prune::free_edges(subject.choice, subject.evidence, moves, greedy))
+    made.push_back(std::move(*free));
+  return made;
+}
+
+void write(const cmd::Command& command, const cmd::PruneOptions& pruning, bool asked,
+           const Subject& subject, std::span<const prune::Move> made) {
+  const std::vector<bool> kept = prune::kept_by(subject.from.candidates, made);
+  cmd::warn_if_nothing_goes(command, subject.from, kept, asked);
+  cmd::write_pruned(command, pruning, subject.from,
+                    prune::removal_of_rest(subject.from.graph, subject.from.candidates, kept));
 }
 
 void run(const cmd::Command& command, const Options& options) {
@@ -215,7 +235,6 @@ void run(const cmd::Command& command, const Options& options) {
   const Graph& graph = subject.from.graph;
   prune::EcGreedyOptions greedy;
   greedy.gain = options.gain == "trace" ? prune::GainKind::trace : prune::GainKind::log_det;
-  greedy.free_edges = !options.no_free;
   greedy.seed = options.method.seed;
   const cmd::Method method = cmd::methods(options.method, graph).front();
   greedy.order = [&](const graph::GraphPattern& variables) {
@@ -228,21 +247,19 @@ void run(const cmd::Command& command, const Options& options) {
   cmd::finish_first();
   cmd::stage("prune", static_cast<std::int64_t>(subject.from.candidates.size()));
   const std::vector<prune::Move> moves = moves_of(options, subject, greedy);
-  const std::span<const prune::Move> all = moves;
-  const auto chosen = greedy.ec ? within(command, subject, all, *greedy.ec, greedy) : all;
-  if (options.trace) print_trace(options, graph, chosen);
-  if (options.trace && options.pruning.output.path.empty()) return;
-  const auto write = [&](std::span<const prune::Move> made, const cmd::PruneOptions& pruning) {
-    const std::vector<bool> kept = prune::kept_by(subject.from.candidates, made);
-    cmd::warn_if_nothing_goes(command, subject.from, kept, true);
-    cmd::write_pruned(command, pruning, subject.from,
-                      prune::removal_of_rest(graph, subject.from.candidates, kept));
-  };
-  if (options.at.empty()) write(chosen, options.pruning);
+  const bool asked = cmd::asks_to_prune(options.amount);
+  const bool writes = !options.trace || !options.pruning.output.path.empty();
+  if (options.at.empty() || options.trace) {
+    const auto made = moves_at(command, options, subject, moves, greedy);
+    if (options.trace) print_trace(options, graph, made);
+    if (options.at.empty() && writes) write(command, options.pruning, asked, subject, made);
+  }
   for (const double budget : options.at) {
+    if (!writes) return;
     cmd::PruneOptions pruning = options.pruning;
     pruning.output.path = with_budget(options.pruning.output.path, budget);
-    write(within(command, subject, all, wide(budget), greedy), pruning);
+    greedy.ec = wide(budget);
+    write(command, pruning, asked, subject, moves_at(command, options, subject, moves, greedy));
   }
 }
 

@@ -16,6 +16,7 @@ constexpr double growth = 1.25;          // of EC until the order is renewed
 constexpr double worth_renewing = 1.01;  // at the end of a budget: what a new order has to win
 constexpr Index most_added = 192;        // rows until the factor is renewed
 constexpr Index sparsest = 256;          // rate of a start, before none
+constexpr double most_sigma = 1e5;       // of a start, in multiples of the whole graph's
 constexpr std::size_t bases = 6;         // poses about which a landmark's observations are sought
 
 // A move that could be made.
@@ -88,7 +89,16 @@ void place_order(Greedy& greedy) {
 std::vector<Index> refactor(Greedy& greedy) {
   greedy.unfactored.assign(greedy.evidence.variable_vertex.size(), false);
   ++greedy.factors;
-  return refactor(greedy.knowledge, greedy.in.edge, greedy.order);
+  return refactor(greedy.knowledge, greedy.in, greedy.order);
+}
+
+// Where measurements hold the gauge, a selection without those may pass for determined by rounding alone: its sigma is
+// beyond all measure then.
+bool holds_gauge(Greedy& greedy) {
+  if (greedy.evidence.held) return true;
+  take_variances(greedy.knowledge);
+  const auto whole = whole_sigma(greedy.choice, greedy.evidence, greedy.options);
+  return whole && mean_sigma(greedy.knowledge) < most_sigma * *whole;
 }
 
 // Starts from these candidates without the landmarks that they leave undetermined. False where they leave another
@@ -98,7 +108,7 @@ bool start_from(Greedy& greedy, std::vector<bool> kept) {
     greedy.in = selection(greedy.choice, kept);
     place_order(greedy);
     const std::vector<Index> undetermined = refactor(greedy);
-    if (undetermined.empty()) return true;
+    if (undetermined.empty()) return holds_gauge(greedy);
     for (const Index j : undetermined) {
       const Index v = greedy.evidence.variable_vertex[j];
       if (greedy.graph.role(v) != graph::Role::landmark || !leave_out(greedy.choice, v, kept))
@@ -194,18 +204,14 @@ std::vector<Index> beside(const Greedy& greedy, std::span<const Index> edges, In
   return chosen;
 }
 
-// A landmark with its fewest observations of these, spread evenly, that determine it; nothing where all of them do not.
-std::optional<Item> landmark_item(const Greedy& greedy, Index variable,
-                                  std::span<const Index> edges, std::span<const Index> others) {
-  for (auto count = static_cast<std::size_t>(greedy.choice.min_obs); count <= edges.size();
-       ++count) {
-    Item item{spread(edges, count), {}, variable};
-    item.rows = item.edges;
-    item.rows.insert(item.rows.end(), others.begin(), others.end());
-    item.measurement = without(greedy.evidence, item.rows, variable);
-    if (!item.measurement.variables.empty()) return item;
-  }
-  return std::nullopt;
+// A landmark that comes in with these of its observations, and with what else it has.
+Item landmark_item(const Greedy& greedy, Index variable, std::vector<Index> edges,
+                   std::span<const Index> others) {
+  Item item{std::move(edges), {}, variable};
+  item.rows = item.edges;
+  item.rows.insert(item.rows.end(), others.begin(), others.end());
+  item.measurement = without(greedy.evidence, item.rows, variable);
+  return item;
 }
 
 void offer(Greedy& greedy, Item item, double value) {
@@ -213,7 +219,8 @@ void offer(Greedy& greedy, Item item, double value) {
   greedy.items.push_back(std::move(item));
 }
 
-// The best way for a landmark to come in.
+// The best way for a landmark to come in: of all its observations, or of those beside one of them, so many, spread evenly.
+// Two bearings determine a point and say nothing else: it takes more than the fewest.
 void offer_landmark(Greedy& greedy, Index vertex) {
   const Index variable = greedy.evidence.vertex_variable[vertex];
   if (variable < 0) return;
@@ -223,18 +230,23 @@ void offer_landmark(Greedy& greedy, Index vertex) {
   }
   if (edges.empty()) return;
   std::ranges::stable_sort(edges, {}, [&](Index e) { return observer(greedy, e); });
-  std::optional<Item> best = landmark_item(greedy, variable, edges, others);
-  if (!best) return;
-  double most = guess(greedy, *best);
-  for (const Index base : spread(edges, std::min(bases, edges.size()))) {
-    auto item = landmark_item(greedy, variable, beside(greedy, edges, base), others);
-    if (!item) continue;
-    const double value = guess(greedy, *item);
-    if (value <= most) continue;
-    most = value;
-    best = std::move(item);
+  std::vector<std::vector<Index>> sources{edges};
+  for (const Index base : spread(edges, std::min(bases, edges.size())))
+    sources.push_back(beside(greedy, edges, base));
+  Item best;
+  double most = -1;
+  for (const std::vector<Index>& source : sources) {
+    for (auto count = static_cast<std::size_t>(greedy.choice.min_obs); count <= source.size();
+         count += (count + 2) / 3) {
+      Item item = landmark_item(greedy, variable, spread(source, count), others);
+      if (item.measurement.variables.empty()) continue;
+      const double value = guess(greedy, item);
+      if (value <= most) continue;
+      most = value;
+      best = std::move(item);
+    }
   }
-  offer(greedy, std::move(*best), most);
+  if (most >= 0) offer(greedy, std::move(best), most);
 }
 
 // All moves that there are now.
@@ -254,18 +266,10 @@ void offer_all(Greedy& greedy) {
   }
 }
 
-void record(Greedy& greedy, Move::Kind kind, std::vector<Index> edges, double gain,
-            elim::Wide increase) {
+// Its gain and sigma are told when it is settled.
+void record(Greedy& greedy, Move::Kind kind, std::vector<Index> edges, elim::Wide increase) {
   greedy.kept += static_cast<Index>(edges.size());
-  greedy.moves.push_back(
-      {kind, std::move(edges), gain, increase, greedy.filled.ec, 0, greedy.kept});
-}
-
-// The same of a move after which the variances are known.
-void record_known(Greedy& greedy, Move::Kind kind, std::vector<Index> edges, double gain) {
-  record(greedy, kind, std::move(edges), gain, 0);
-  greedy.moves.back().sigma = mean_sigma(greedy.knowledge);
-  greedy.settled = greedy.moves.size();
+  greedy.moves.push_back({kind, std::move(edges), 0, increase, greedy.filled.ec, 0, greedy.kept});
 }
 
 // What the moves since the factor have gained.
@@ -287,38 +291,12 @@ void renew_factor(Greedy& greedy) {
   greedy.after_factor.clear();
 }
 
-double achieved(Greedy& greedy) {
-  return greedy.options.gain == GainKind::log_det ? solve::log_determinant(greedy.knowledge.factor)
-                                                  : -total_variance(greedy.knowledge);
-}
-
-std::vector<Index> free_candidates(Greedy& greedy) {
-  std::vector<Index> free;
-  const auto room = static_cast<std::size_t>(
-      greedy.options.kept ? *greedy.options.kept - greedy.kept : greedy.choice.candidates.size());
-  for (const Index e : greedy.choice.candidates) {
-    if (free.size() == room) break;
-    if (greedy.in.edge[e] || !all_in(greedy, e)) continue;
-    if (elim::increase(greedy.filled, factor_of(greedy, std::span(&e, 1))) == 0) free.push_back(e);
-  }
-  return free;
-}
-
-// A new order, and what is free in it.
+// A new order.
 void renew_order(Greedy& greedy) {
   settle_moves(greedy);
   place_order(greedy);
   refactor(greedy);
   take_variances(greedy.knowledge);
-  std::vector<Index> free;
-  if (greedy.options.free_edges) free = free_candidates(greedy);
-  if (!free.empty()) {
-    const double before = achieved(greedy);
-    for (const Index e : free) greedy.in.edge[e] = true;
-    refactor(greedy);
-    take_variances(greedy.knowledge);
-    record_known(greedy, Move::Kind::free, std::move(free), achieved(greedy) - before);
-  }
   offer_all(greedy);
 }
 
@@ -367,8 +345,7 @@ void accept(Greedy& greedy, Index i) {
   greedy.items[i].tried.reset();
   for (const Index e : item.rows) greedy.in.edge[e] = true;
   const bool brings = item.landmark >= 0;
-  record(greedy, brings ? Move::Kind::landmark : Move::Kind::edge, std::move(item.edges), 0,
-         increase);
+  record(greedy, brings ? Move::Kind::landmark : Move::Kind::edge, std::move(item.edges), increase);
   if (!brings) return;
   const Index v = greedy.evidence.variable_vertex[item.landmark];
   greedy.in.vertex[v] = true;
@@ -418,6 +395,27 @@ void grow(Greedy& greedy) {
   }
 }
 
+// What is maximized, of all that is in.
+double achieved(Greedy& greedy) {
+  refactor(greedy);
+  if (greedy.options.gain == GainKind::log_det)
+    return solve::log_determinant(greedy.knowledge.factor);
+  take_variances(greedy.knowledge);
+  return -total_variance(greedy.knowledge);
+}
+
+Greedy make_greedy(const Choice& choice, const Evidence& evidence, const EcGreedyOptions& options) {
+  Greedy greedy{choice,
+                choice.graph,
+                evidence,
+                options,
+                graph::transpose(choice.graph.edge_vertices, choice.graph.vertices()),
+                std::vector<bool>(choice.graph.edges(), false),
+                start_knowledge(evidence, options.seed)};
+  for (const Index e : choice.candidates) greedy.is_candidate[e] = true;
+  return greedy;
+}
+
 // Moves beyond the first that reaches a floor of sigma go.
 void cut_at_sigma(const EcGreedyOptions& options, std::vector<Move>& moves) {
   if (!options.sigma) return;
@@ -435,29 +433,48 @@ std::string_view name(Move::Kind kind) {
 
 std::vector<Move> ecgreedy(const Choice& choice, const Evidence& evidence,
                            const EcGreedyOptions& options) {
-  Greedy greedy{choice,
-                choice.graph,
-                evidence,
-                options,
-                graph::transpose(choice.graph.edge_vertices, choice.graph.vertices()),
-                std::vector<bool>(choice.graph.edges(), false),
-                start_knowledge(evidence, options.seed)};
-  for (const Index e : choice.candidates) greedy.is_candidate[e] = true;
+  Greedy greedy = make_greedy(choice, evidence, options);
   if (!start(greedy)) return {};
   take_variances(greedy.knowledge);
   std::vector<Index> first;
   for (const Index e : choice.candidates) {
     if (greedy.in.edge[e]) first.push_back(e);
   }
-  record_known(greedy, Move::Kind::start, std::move(first), 0);
-  greedy.moves.back().increase = greedy.filled.ec;
+  record(greedy, Move::Kind::start, std::move(first), greedy.filled.ec);
+  greedy.moves.back().sigma = mean_sigma(greedy.knowledge);
+  greedy.settled = 1;
   if (!is_over(greedy) && !is_reached(greedy)) {
-    renew_order(greedy);
+    offer_all(greedy);
     grow(greedy);
     settle_moves(greedy);
   }
   cut_at_sigma(options, greedy.moves);
   return std::move(greedy.moves);
+}
+
+std::optional<Move> free_edges(const Choice& choice, const Evidence& evidence,
+                               std::span<const Move> moves, const EcGreedyOptions& options) {
+  Greedy greedy = make_greedy(choice, evidence, options);
+  greedy.in = selection(choice, kept_by(choice.candidates, moves));
+  place_order(greedy);
+  Move free{Move::Kind::free, {}, 0, 0, greedy.filled.ec, 0, moves.back().kept};
+  for (const Index e : choice.candidates) {
+    if (options.kept && free.kept == *options.kept) break;
+    if (greedy.in.edge[e] || !all_in(greedy, e)) continue;
+    if (elim::increase(greedy.filled, factor_of(greedy, std::span(&e, 1))) > 0) continue;
+    free.edges.push_back(e);
+    ++free.kept;
+  }
+  if (free.edges.empty()) return std::nullopt;
+  const double before = achieved(greedy);
+  for (const Index e : free.edges) greedy.in.edge[e] = true;
+  free.gain = achieved(greedy) - before;
+  free.sigma = mean_sigma(greedy.knowledge);
+  std::vector<Move> all(moves.begin(), moves.end());
+  all.push_back(free);
+  const elim::Wide allowed = std::max(options.ec.value_or(0), free.ec);
+  if (ec_after(choice, all, options) > allowed) return std::nullopt;
+  return free;
 }
 
 std::vector<bool> kept_by(const std::vector<Index>& candidates, std::span<const Move> moves) {
@@ -472,7 +489,8 @@ std::vector<bool> kept_by(const std::vector<Index>& candidates, std::span<const 
 std::optional<double> whole_sigma(const Choice& choice, const Evidence& evidence,
                                   const EcGreedyOptions& options) {
   Knowledge knowledge = start_knowledge(evidence, options.seed);
-  const std::vector<bool> all(choice.graph.edges(), true);
+  const Selection all{std::vector<bool>(choice.graph.vertices(), true),
+                      std::vector<bool>(choice.graph.edges(), true)};
   if (!refactor(knowledge, all, options.order(graph::graph_pattern(choice.graph))).empty())
     return std::nullopt;
   take_variances(knowledge);

@@ -6,8 +6,10 @@
 // Moves are an edge, and a landmark that is not in with as many of its observations as determine it. The increase is
 // exact under the order (filled_graph.h); the gain is an estimate in choosing and exact in what is told
 // (information_gain.h). Moves wait in a heap under their last value, which is computed anew before it is believed. When EC
-// has grown by a quarter the order is renewed, and every candidate that is free under the new one, its ends in one clique
-// already, comes in for nothing.
+// has grown by a quarter the order is renewed.
+//
+// What a selection could have for nothing is found at its end: candidates whose variables stand together in one clique.
+// To take them at every renewal binds later orders, and costs more than it gives.
 //
 // Nothing that is determined is ever left undetermined: poses are from the start on, and a landmark comes in with
 // observations that determine it.
@@ -43,7 +45,6 @@ std::string_view name(Move::Kind kind);
 
 struct EcGreedyOptions {
   GainKind gain = GainKind::trace;
-  bool free_edges = true;
   std::uint64_t seed = 1;  // of the gains' random vectors
   // An elimination order of a part of the graph.
   std::function<graph::Order(const graph::GraphPattern&)> order;
@@ -65,6 +66,12 @@ constexpr elim::Wide edge_cost = 100;
 // all of the graph leaves something undetermined.
 std::vector<Move> ecgreedy(const Choice& choice, const Evidence& evidence,
                            const EcGreedyOptions& options);
+
+// A last move after these: every candidate that is free in the order of its own that their selection has; increase 0.
+// Nothing where there is none, or where EC, scored again, exceeds both what it was and options.ec: a heuristic's order of
+// more edges is another one.
+std::optional<Move> free_edges(const Choice& choice, const Evidence& evidence,
+                               std::span<const Move> moves, const EcGreedyOptions& options);
 
 // What stays after these moves: of every candidate, side by side with them.
 std::vector<bool> kept_by(const std::vector<Index>& candidates, std::span<const Move> moves);

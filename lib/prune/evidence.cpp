@@ -44,6 +44,7 @@ Evidence measured_evidence(const factor::Problem& problem, const factor::Values&
   evidence.numbers = std::move(system.numbers);
   evidence.step_at = problem.step_at;
   evidence.poses = count_poses(*problem.graph);
+  evidence.held = problem.held >= 0;
   evidence.variable_vertex = problem.variables.variable_vertex;
   evidence.vertex_variable = problem.variables.vertex_variable;
   for (Index j = 0; j < evidence.pattern.variables(); ++j) {

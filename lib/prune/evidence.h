@@ -20,6 +20,7 @@ struct Evidence {
   std::vector<Index> step_at;          // n + 1: where a variable's scalars start
   std::vector<bool> position;          // of every scalar: whether it is one of a pose's position
   Index poses = 0;                     // of the graph, constants included
+  bool held = true;                    // whether a row of its own holds the gauge
   std::vector<Index> variable_vertex;  // as in GraphPattern
   std::vector<Index> vertex_variable;
 

@@ -37,11 +37,10 @@ Draws product(const Knowledge& knowledge, const Measurement& m, const Draws& x) 
   return result;
 }
 
-// The rows that are in, and for every variable without any a row that holds it.
-void select_rows(Knowledge& knowledge, const std::vector<bool>& row) {
+// The rows that are in, and for every variable that is not a row that holds it.
+void select_rows(Knowledge& knowledge, const Selection& in) {
   const Evidence& evidence = knowledge.evidence;
   const graph::Pattern& all = evidence.pattern;
-  std::vector<bool> present(all.variables(), false);
   knowledge.pattern = {all.dim, {}};
   knowledge.selected = {nullptr, {}, {0}, {}};
   factor::LinearSystem& selected = knowledge.selected;
@@ -51,13 +50,12 @@ void select_rows(Knowledge& knowledge, const std::vector<bool>& row) {
     selected.begin.push_back(static_cast<Offset>(selected.numbers.size()));
   };
   for (Index r = 0; r < all.rows.size(); ++r) {
-    if (r < static_cast<Index>(row.size()) && !row[r]) continue;  // beyond: the gauge's
-    for (const Index j : all.rows[r]) present[j] = true;
+    if (r < static_cast<Index>(in.edge.size()) && !in.edge[r]) continue;  // beyond: the gauge's
     selected.numbers.insert(selected.numbers.end(), evidence.block(r), evidence.block(r + 1));
     close(all.rows[r], evidence.height[r]);
   }
   for (Index j = 0; j < all.variables(); ++j) {
-    if (present[j]) continue;
+    if (in.vertex[evidence.variable_vertex[j]]) continue;
     const int dim = all.dim[j];
     for (int k = 0; k < dim * (dim + 1); ++k)
       selected.numbers.push_back(k < dim * dim && k % (dim + 1) == 0 ? 1 : 0);
@@ -157,9 +155,8 @@ Knowledge start_knowledge(const Evidence& evidence, std::uint64_t seed) {
   return knowledge;
 }
 
-std::vector<Index> refactor(Knowledge& knowledge, const std::vector<bool>& row,
-                            const graph::Order& order) {
-  select_rows(knowledge, row);
+std::vector<Index> refactor(Knowledge& knowledge, const Selection& in, const graph::Order& order) {
+  select_rows(knowledge, in);
   knowledge.added.clear();
   knowledge.added_rows = 0;
   knowledge.factor = solve::plan_elimination(knowledge.selected, order);

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "lib/prune/evidence.h"
+#include "lib/prune/selection.h"
 #include "lib/solve/triangular.h"
 
 namespace sg::prune {
@@ -54,7 +55,7 @@ struct Knowledge {
   const Evidence& evidence;
   boost::random::mt19937 bits;
 
-  graph::Pattern pattern;         // of the rows that are in; variables without any stand still
+  graph::Pattern pattern;         // of the rows that are in; variables that are not stand still
   factor::LinearSystem selected;  // their blocks
   solve::Elimination factor;
   solve::Triangle triangle;
@@ -74,11 +75,10 @@ struct Knowledge {
 
 Knowledge start_knowledge(const Evidence& evidence, std::uint64_t seed);
 
-// Factors the rows marked `row` (the gauge's are always in), variables that none of them holds standing still, in this
-// order of all variables; draws anew. Returns the variables that are left undetermined, ascending: then nothing else is
+// Factors the rows that are in (the gauge's always are), variables that are not standing still, in this order of all
+// variables; draws anew. Returns the variables that are left undetermined, ascending: then nothing else is
 // of use. Variances stay as they are.
-std::vector<Index> refactor(Knowledge& knowledge, const std::vector<bool>& row,
-                            const graph::Order& order);
+std::vector<Index> refactor(Knowledge& knowledge, const Selection& in, const graph::Order& order);
 // Variances of the factored rows, by selected inversion.
 void take_variances(Knowledge& knowledge);
 

@@ -14,7 +14,7 @@ Piece l11(const Front& front) {
 }
 
 Piece l21(const Front& front) {
-  return {front.l + front.f, front.n - front.f - 1, front.f, Eigen::OuterStride<>(front.ld_l())};
+  return {front.l + front.f, front.s(), front.f, Eigen::OuterStride<>(front.ld_l())};
 }
 
 void solve_lower(const Triangle& t, Index c, RowsRef& x, Rows& above) {
