@@ -76,15 +76,13 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_option("--sigma-part", options.sigma_part, "or so many times the whole graph's (1.05),")
       ->type_name("TIMES")
       ->check(cmd::above_zero());
-  app.add_option("--at", options.at, "or EC is each of these: %d in -o is it")
+  app.add_option("--at", options.at, "or EC is each of these, %d in -o")
       ->type_name("EC,...")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(cmd::above_zero());
   cmd::add_amount(command, options.amount);
-  app.add_option("--gain", options.gain,
-                 "What to maximize: trace (of the positions'\ncovariance falls; the default), "
-                 "logdet (of the\ninformation grows), trees (the same of unit\nweights: any tag)")
+  app.add_option("--gain", options.gain, "What counts: trace (default), logdet, trees (any tag)")
       ->option_text("KIND")
       ->check(cmd::one_of({"trace", "logdet", "trees"}));
   app.add_flag("--no-free", options.no_free, "Leave out what would cost no EC as well");
@@ -92,8 +90,7 @@ void add_options(cmd::Command& command, Options& options) {
                  "The ordering that EC is counted in (default: wmf)")
       ->option_text("METHOD")
       ->expected(1);
-  cmd::add_seed(app, options.method.seed, "Seed of estimated gains, and of the ordering")
-      ->default_val(1);
+  cmd::add_seed(app, options.method.seed, "Seed of estimates and the ordering");
   app.add_flag("--trace", options.trace, "Print a row a move, instead of the graph");
   cmd::add_pruning(command, options.pruning);
   cmd::add_table(command, options.table, columns);
