@@ -82,7 +82,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->allow_extra_args(false)
       ->check(cmd::above_zero());
   cmd::add_amount(command, options.amount);
-  app.add_option("--gain", options.gain, "What counts: trace (default), logdet, trees (any tag)")
+  app.add_option("--gain", options.gain, "What counts: trace (default), logdet, trees")
       ->option_text("KIND")
       ->check(cmd::one_of({"trace", "logdet", "trees"}));
   app.add_flag("--no-free", options.no_free, "Leave out what would cost no EC as well");

@@ -255,7 +255,7 @@ TEST_CASE("tree evidence counts spanning trees", "[ecgreedy]") {
   CHECK(dense_information(evidence, std::vector<bool>(5, true)).determinant() == Approx(8));
 }
 
-TEST_CASE("what is in is always determined; all that can come in does", "[ecgreedy]") {
+TEST_CASE("what is in is always determined, and all that can come in does", "[ecgreedy]") {
   for (int trial = 0; trial < 12; ++trial) {
     Random random(90 + trial);
     World world(random_text(random, draw(random, 8, 24), draw(random, 0, 8), draw(random, 0, 8)),
@@ -276,7 +276,7 @@ TEST_CASE("what is in is always determined; all that can come in does", "[ecgree
   }
 }
 
-TEST_CASE("the same call makes the same moves; budgets are kept", "[ecgreedy]") {
+TEST_CASE("the same call makes the same moves, and budgets are kept", "[ecgreedy]") {
   Random random(3);
   World world(random_text(random, 40, 6, 20));
   const std::vector<Move> moves = world.moves(), again = world.moves();
