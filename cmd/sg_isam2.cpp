@@ -2,6 +2,7 @@
 #include <ctime>
 
 #include "cmd/common/command.h"
+#include "cmd/common/complete.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
@@ -11,6 +12,7 @@
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_replay.h"
 #include "lib/solve/snapshot.h"
+#include "lib/text/nearest.h"
 
 using namespace sg;
 
@@ -112,6 +114,7 @@ void add_options(cmd::Command& command, Options& options) {
   auto& app = command.app;
   app.add_option("-m,--method,--ordering", options.isam.ordering,
                  "Ordering to eliminate anew by (default: colamd)")
+      ->check(cmd::suggests(text::names_of(order::orderings())))
       ->option_text("METHOD");
   add_thresholds(app, options.isam);
   cmd::add_entry(app, options.min_obs, "A landmark");
