@@ -38,7 +38,7 @@ terminal() {
 
 @test "an option without effect is an error" {
   for call in 'sg-solve -f ec' 'sg-solve --chi2 -m amd' 'sg-bayes --dot --json' 'sg-order --budget 3' 'sg-order --print --no-trace-comment' \
-    'sg-plot map -m amd' 'sg-plot tree --plane xz' 'sg-score --align sim' 'sg-ec --every 2' 'sg-cut --largest --min-obs 2' \
+    'sg-plot map --cost --only loops' 'sg-plot tree --plane xz' 'sg-score --align sim' 'sg-ec --every 2' 'sg-cut --largest --min-obs 2' \
     'sg-cut --ids 7' 'sg-tgreedy -r 2 --json' 'sg-convert --scalar' 'sg-predict --pose-dim 3' 'sg-ec --json --no-header'; do
     run -2 --separate-stderr $call walk.g2o
     [ -z "$output" ]
