@@ -87,6 +87,7 @@ formats::Changes with_fixed(const Graph& graph, const std::vector<Id>& ids) {
 
 formats::Changes scaled(const Graph& graph, const std::vector<std::string>& texts) {
   std::vector<formats::InformationScale> scales;
+  scales.reserve(texts.size());
   for (const auto& text : texts) scales.push_back(formats::parse_scale(graph.tags, text));
   return formats::scaled(graph, scales);
 }
