@@ -311,3 +311,43 @@ TEST_CASE("nothing is selected from what its edges do not determine", "[ecgreedy
   CHECK(world.moves().empty());
   CHECK(!prune::whole_sigma(world.choice, world.evidence, world.options).has_value());
 }
+
+TEST_CASE("greedy is near the best of all subsets", "[ecgreedy]") {
+  double sum = 0;
+  int points = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    Random random(200 + trial);
+    const World world(random_text(random, 12, 0, 9));
+    const std::size_t n = world.candidates.size();
+    struct Point {
+      elim::Wide ec;
+      double variances;
+    };
+    std::vector<Point> all;
+    for (std::size_t subset = 0; subset < std::size_t{1} << n; ++subset) {
+      std::vector<bool> kept;
+      for (std::size_t i = 0; i < n; ++i) kept.push_back((subset >> i & 1U) != 0);
+      const prune::Selection in = prune::selection(world.choice, kept);
+      const graph::GraphPattern part = graph::graph_pattern(world.graph, in.vertex, in.edge);
+      all.push_back({elim::elimination_complexity(part.pattern, world.options.order(part)),
+                     dense_accuracy(world, in).sum});
+    }
+    const std::vector<Move> moves = world.moves();
+    for (std::size_t k = 1; k < moves.size(); ++k) {
+      const std::span<const Move> made = std::span(moves).first(k + 1);
+      const elim::Wide ec = prune::ec_after(world.choice, made, world.options);
+      double best = all.front().variances;
+      for (const Point& point : all) {
+        if (point.ec <= ec) best = std::min(best, point.variances);
+      }
+      const double reached = all.front().variances - dense_accuracy(world, after(world, made)).sum;
+      const double share = reached / (all.front().variances - best);
+      INFO("move " << k << " of trial " << trial);
+      CHECK(share > 0.9);
+      sum += share;
+      ++points;
+    }
+  }
+  INFO("mean share of the best fall of variance at equal EC: " << sum / points);
+  CHECK(sum / points > 0.99);
+}
