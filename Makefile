@@ -15,10 +15,11 @@ lint_packages  := clang-format clang-tidy python3 mandoc git
 bench_packages := libbenchmark-dev
 fuzz_packages  := clang libclang-rt-14-dev
 plot_packages  := gnuplot-nox graphviz
+deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check mutants install uninstall bench fuzz tsan paper orderings lint format clean
+.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -68,6 +69,11 @@ install: build ## install commands, man pages, and the library for CMake and pkg
 
 uninstall: ## remove what make install put there
 	@cmake -DMANIFEST=$(BUILD)/install_manifest.txt -P cmake/uninstall.cmake
+
+deb: build build/packages/deb ## make Debian packages, sgtools and libsgtools-dev, and prove that they install and go
+	@rm -rf $(BUILD)/packages
+	@cd $(BUILD) && cpack -G DEB >/dev/null
+	@tests/install/deb $(BUILD)/packages
 
 bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
 	@$(call configure,$(commands_alone) -DSGTOOLS_BENCH=ON)

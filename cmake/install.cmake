@@ -1,5 +1,5 @@
-# Commands (cmd), man pages, the licence, and the library with its public headers: for CMake find_package(sgtools) and
-# sgtools::sgtools, for others pkg-config sgtools.
+# Two components. sgtools: commands (cmd), man pages, completions, the licence. libsgtools-dev: the library with its public
+# headers, for CMake find_package(sgtools) and sgtools::sgtools, for others pkg-config sgtools.
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sgtools)
 
@@ -9,6 +9,19 @@ foreach(section 1 5 7)
 endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+# Of both shells: bash looks by the command's name.
+if(SGTOOLS_COMMANDS)
+  get_property(names GLOBAL PROPERTY SGTOOLS_COMMANDS)
+  string(REPLACE ";" " " commands "${names}")
+  configure_file(cmd/completion/sgtools.bash sgtools.bash @ONLY)
+  foreach(command ${names})
+    install(FILES ${PROJECT_BINARY_DIR}/sgtools.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+      RENAME ${command})
+  endforeach()
+  install(FILES cmd/completion/_sgtools DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+endif()
+
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME libsgtools-dev)
 install(TARGETS sgtools EXPORT sgtools ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
 set(INCLUDE \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/sgtools\")")

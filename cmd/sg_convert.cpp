@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cmd/common/command.h"
+#include "cmd/common/complete.h"
 #include "cmd/common/options.h"
 #include "cmd/convert/hessian.h"
 #include "formats/applied.h"
@@ -86,6 +87,7 @@ formats::Changes with_fixed(const Graph& graph, const std::vector<Id>& ids) {
 
 formats::Changes scaled(const Graph& graph, const std::vector<std::string>& texts) {
   std::vector<formats::InformationScale> scales;
+  scales.reserve(texts.size());
   for (const auto& text : texts) scales.push_back(formats::parse_scale(graph.tags, text));
   return formats::scaled(graph, scales);
 }
@@ -168,11 +170,11 @@ void add_options(cmd::Command& command, Options& options) {
   command.app
       .add_option("--to", options.to,
                   text::listed(text::names_of(formats::write_formats())) + "\n(default: g2o)")
+      ->check(cmd::suggests(text::names_of(formats::write_formats())))
       ->option_text("FORMAT");
   command.app.add_flag("--scalar", options.write.scalar,
                        "mtx: the scalar system matrix, not the block one");
-  command.app.add_flag("--values", options.values,
-                       "mtx: the scalar one with its numbers");
+  command.app.add_flag("--values", options.values, "mtx: the scalar one with its numbers");
   command.app.add_option("--times", options.times, "tum: the times of a table of id and time")
       ->option_text("FILE");
   command.app.add_flag("--renumber", options.renumber,

@@ -69,8 +69,9 @@ graph::Types types_of(const Graph& graph, const std::string& option,
             (other->kind == graph::LineKind::vertex || other->kind == graph::LineKind::edge))
           known.push_back(name);
       }
-      throw text::usage_error(option + " " + tag + ": no vertex or edge has this tag; " +
-                              text::suggestion(tag, known));
+      std::string cause = option;
+      cause.append(" ").append(tag).append(": no vertex or edge has this tag; ");
+      throw text::usage_error(cause + text::suggestion(tag, known));
     }
   }
   return types;

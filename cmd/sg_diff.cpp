@@ -118,6 +118,7 @@ std::vector<Count> counts(const Kind& kind, const Graph& a, const Graph& b,
     }
   }
   std::vector<Count> rows;
+  rows.reserve(by_tag.size());
   for (auto& [tag, row] : by_tag) rows.push_back(std::move(row));
   return rows;
 }

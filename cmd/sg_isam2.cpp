@@ -2,6 +2,7 @@
 #include <ctime>
 
 #include "cmd/common/command.h"
+#include "cmd/common/complete.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
@@ -11,6 +12,7 @@
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_replay.h"
 #include "lib/solve/snapshot.h"
+#include "lib/text/nearest.h"
 
 using namespace sg;
 
@@ -117,6 +119,7 @@ void add_options(cmd::Command& command, Options& options) {
   auto& app = command.app;
   app.add_option("-m,--method,--ordering", options.orderings,
                  "Orderings to eliminate anew by, a replay each\n(default: colamd)")
+      ->check(cmd::suggests(text::names_of(order::orderings())))
       ->option_text("METHOD,...")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -35,7 +35,7 @@ formats::MergeOptions merge_options(const cmd::Command& command, const Options& 
 
 // Without the lines that reading left out: its changes may name every line.
 Graph read_kept(const cmd::Inputs& inputs, const std::string& path) {
-  const Graph graph = cmd::read(inputs, path);
+  Graph graph = cmd::read(inputs, path);
   if (graph.left_out.empty()) return graph;
   return formats::applied(graph, formats::unchanged(graph), inputs.options);
 }

@@ -1,6 +1,7 @@
 // sg-order: put a graph's variables in elimination order.
 #include <cstdio>
 
+#include "cmd/common/complete.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
@@ -32,6 +33,7 @@ void add_options(cmd::Command& command, Options& options) {
   for (const order::Ordering& ordering : order::orderings()) methods.emplace_back(ordering.name);
   app.add_option("-m,--method", options.method,
                  cmd::wrapped_list("Default: " + options.method + "; one of ", methods, ", "))
+      ->check(cmd::suggests(methods))
       ->option_text("METHOD");
   app.add_option("--apply", options.apply, "Take the order from FILE: ids in its first column")
       ->option_text("FILE");

@@ -1,4 +1,5 @@
 // sg-plot: pictures of a graph, of its factor, of its Bayes tree.
+#include <algorithm>
 #include <array>
 
 #include "cmd/common/command.h"
@@ -7,6 +8,7 @@
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
+#include "cmd/plot/words.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
 #include "lib/score/covariance.h"
@@ -24,6 +26,7 @@ struct Options {
   std::string plane = "xy";
   bool cost = false;
   bool sigma = false;
+  std::vector<std::string> only;
   plot::PageSize size{600, 600};
 };
 
@@ -43,6 +46,11 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
       ->check(cmd::one_of({"xy", "xz", "yz"}))
       ->option_text("PLANE");
+  app.add_option("--only", options.only, "Of a map: these edges: odometry, loops, observations")
+      ->check(cmd::one_of({"odometry", "loops", "observations"}))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("KIND,...");
   app.add_option("--width", options.size.width,
                  "Of the picture, in points or pixels (default: 600)")
       ->transform(cmd::whole(64, 20000))
@@ -72,13 +80,38 @@ std::vector<score::Ellipse> ellipses(const Graph& graph, const graph::Order& ord
   return result;
 }
 
+// "walk.g2o: 5 poses, 2 landmarks, 11 edges, EC 697 (colamd)"
+std::string title(const Graph& graph, const graph::GraphPattern& variables, const std::string& name,
+                  const graph::Order& order) {
+  const elim::Wide ec = elim::column_score(elim::symbolic(variables.pattern, order)).ec;
+  return plot::counted(graph) + ", EC " + elim::to_string(ec) + " (" + name + ")";
+}
+
+struct EdgeKind {
+  std::string_view name;
+  graph::EdgeRole role;
+};
+constexpr std::array edge_kinds{EdgeKind{"odometry", graph::EdgeRole::odometry},
+                                EdgeKind{"loops", graph::EdgeRole::loop_closure},
+                                EdgeKind{"observations", graph::EdgeRole::observation}};
+
+std::vector<graph::EdgeRole> shown_edges(const Options& options) {
+  std::vector<graph::EdgeRole> roles;
+  for (const EdgeKind& kind : edge_kinds) {
+    if (options.only.empty() || std::ranges::find(options.only, kind.name) != options.only.end())
+      roles.push_back(kind.role);
+  }
+  return roles;
+}
+
 void draw(cairo_t* page, const Options& options, const Graph& graph) {
   const bool map = options.what == "map";
   const std::array axes{options.plane[0] - 'x', options.plane[1] - 'x'};
-  if (map && !options.cost && !options.sigma)
-    return plot::draw_map(page, options.size, graph, axes);
   const graph::GraphPattern variables = graph::graph_pattern(graph);
   const auto [name, order] = cmd::named_order(options.method, graph, variables);
+  if (map && !options.cost && !options.sigma)
+    return plot::draw_map(page, options.size, graph, axes, title(graph, variables, name, order),
+                          shown_edges(options));
   if (options.sigma) {
     return plot::draw_sigma_map(page, options.size, graph, axes, ellipses(graph, order, axes));
   }
@@ -87,18 +120,20 @@ void draw(cairo_t* page, const Options& options, const Graph& graph) {
                                plot::costs(variables, order, name));
   }
   if (options.what == "pattern") {
-    return plot::draw_pattern(page, options.size, variables.pattern, order);
+    plot::draw_pattern(page, options.size, variables.pattern, order);
+    return plot::draw_title(page, options.size, title(graph, variables, name, order), 12, 9, 8);
   }
   plot::draw_tree(page, options.size, elim::symbolic(variables.pattern, order));
+  plot::draw_title(page, options.size, title(graph, variables, name, order), 12, 9, 8);
 }
 
 void run(const cmd::Command& command, const Options& options) {
   if (options.what != "map")
-    cmd::refuse(command.app, {"--cost", "--sigma", "--plane"},
+    cmd::refuse(command.app, {"--cost", "--sigma", "--plane", "--only"},
                 "on a " + options.what + ", only on a map");
   cmd::at_most_one(command.app, {{"--cost", "colours what costs"}, {"--sigma", "draws ellipses"}});
-  if (options.what == "map" && !options.cost && !options.sigma)
-    cmd::refuse(command.app, {"-m", "--seed"}, "on a map without --cost or --sigma");
+  if (options.cost) cmd::refuse(command.app, {"--only"}, "with --cost, which colours all edges");
+  if (options.sigma) cmd::refuse(command.app, {"--only"}, "with --sigma, whose edges are faint");
   const plot::PictureFormat format = plot::picture_format(options.output.path);
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);

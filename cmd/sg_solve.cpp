@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cmd/common/command.h"
+#include "cmd/common/complete.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
@@ -17,6 +18,7 @@
 #include "lib/factor/initialize.h"
 #include "lib/solve/batch.h"
 #include "lib/solve/front.h"
+#include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
 using namespace sg;
@@ -89,6 +91,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->option_text("NAME:W");
   cmd::add_methods(command, options.method);
   app.add_option("--backend", options.backend, "Eliminate by " + solve::backend_names())
+      ->check(cmd::suggests(text::names_of(solve::backends())))
       ->option_text("NAME");
   app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
       ->option_text("N")

@@ -50,6 +50,15 @@ const Job& find(std::string_view word) {
   throw text::usage_error(text::no_such("command", word, text::names_of(jobs)));
 }
 
+// Those that begin so, a line each.
+std::string commands(std::string_view begin) {
+  std::string lines;
+  for (const Job& job : jobs) {
+    if (job.name.starts_with(begin)) lines.append(job.name) += '\n';
+  }
+  return lines;
+}
+
 // Becomes the command: its name in messages, its status and its signals are its own.
 [[noreturn]] void become(const Job& job, char** arguments) {
   const std::string name = "sg-" + std::string(job.name);
@@ -71,10 +80,18 @@ void print(const std::string& text) {
 int main(int argc, char** argv) {
   cmd::Command command("sgtools", "One door to all commands.");
   const std::string word = argc > 1 ? argv[1] : "--help";
+  std::string complete =
+      "--complete";  // of a shell's: the command's name, or a call of the command
   // What parse() would take for options of its own belongs to the command that runs.
   std::array<char*, 1> alone{argv[0]};
   return cmd::run(command, 1, alone.data(), [&] {
     if (word == "--help" || word == "-h" || word == "help") return print(help());
+    if (word == complete && argc <= 3) return print(commands(argc == 3 ? argv[2] : ""));
+    if (word == complete) {
+      const Job& job = find(argv[2]);
+      argv[2] = complete.data();
+      become(job, argv + 1);
+    }
     if (word == "--version") return print(sgtools::versions());
     if (word.starts_with('-'))
       throw text::usage_error(word + " is no command: options stand behind it");

@@ -123,6 +123,12 @@ MergedParam param_of(const Graph& graph, const graph::Param& param) {
   return result;
 }
 
+Params::const_iterator equal_param(const Params& params, const MergedParam& param) {
+  return std::ranges::find_if(params, [&](const auto& other) {
+    return other.second.tag == param.tag && other.second.numbers == param.numbers;
+  });
+}
+
 // Gives the parameters of one graph their ids beside those before, and drops what is there already. Of two lines with one
 // id the first holds, as everywhere.
 void add_params(const Graph& graph, Params& params, NewIds& ids) {
@@ -132,9 +138,7 @@ void add_params(const Graph& graph, Params& params, NewIds& ids) {
   Id next = std::max(last(params), last(own));
   Params added;
   for (auto& [id, param] : own) {
-    const auto same = std::ranges::find_if(params, [&](const auto& other) {
-      return other.second.tag == param.tag && other.second.numbers == param.numbers;
-    });
+    const auto same = equal_param(params, param);
     if (same != params.end()) {
       ids.params[id] = same->first;
       ids.dropped_params.insert(id);

@@ -6,9 +6,11 @@
 #include <array>
 #include <string_view>
 
+#include "cmd/common/complete.h"
 #include "formats/convert.h"
 #include "formats/reorder.h"
 #include "lib/text/line.h"
+#include "lib/text/nearest.h"
 
 namespace sg::cmd {
 namespace {
@@ -30,6 +32,7 @@ std::string shell_quoted(const std::string& word) {
 void add_read_options(Command& command, formats::ReadOptions& options) {
   command.app.add_option("--from", options.format, "Input format; told by content otherwise")
       ->option_text("FORMAT")
+      ->check(suggests(text::names_of(formats::read_formats())))
       ->each([](const std::string& name) { formats::check_format(name); });
   command.app
       .add_option("--vertex", options.vertex_types,
@@ -111,6 +114,13 @@ int print(const std::string& text) {
   return 0;
 }
 
+// For a shell, not for people.
+std::string completed(CLI::App& app, const std::vector<std::string>& words) {
+  std::string lines;
+  for (const auto& word : completions(app, words)) lines += word + "\n";
+  return lines;
+}
+
 int guarded(const Command& command, const std::function<int()>& work) {
   try {
     try {
@@ -160,6 +170,8 @@ int run_status(Command& command, int argc, char** argv, const std::function<int(
   command.call = command.name;
   for (int k = 1; k < argc; ++k) command.call += " " + shell_quoted(argv[k]);
   const int status = guarded(command, [&] {
+    if (argc > 1 && std::string_view(argv[1]) == "--complete")
+      return print(completed(command.app, {argv + 2, argv + argc}));
     try {
       parse(command.app, argc, argv);
     } catch (const CLI::CallForHelp&) {

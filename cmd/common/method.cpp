@@ -1,6 +1,8 @@
 #include "cmd/common/method.h"
 
+#include "cmd/common/complete.h"
 #include "cmd/common/options.h"
+#include "lib/text/nearest.h"
 
 namespace sg::cmd {
 namespace {
@@ -13,6 +15,7 @@ void add(Command& command, MethodOptions& options, const char* type, int most) {
                       std::string(order::default_ordering) + " otherwise")
       ->option_text(type)
       ->delimiter(',')
+      ->check(suggests(text::names_of(order::orderings())))
       ->allow_extra_args(false)
       ->expected(1, most);
   add_seed(command.app, options.seed, "Seed of orderings that draw");

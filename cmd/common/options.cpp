@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cmd/common/complete.h"
 #include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
@@ -72,12 +73,13 @@ CLI::Validator above_zero() {
 }
 
 CLI::Validator one_of(const std::vector<std::string>& words) {
-  return {[words](std::string& text) {
-            return std::ranges::find(words, text) != words.end()
-                       ? std::string()
-                       : text + ": " + text::suggestion(text, words);
-          },
-          ""};
+  return suggesting({[words](std::string& text) {
+                       return std::ranges::find(words, text) != words.end()
+                                  ? std::string()
+                                  : text + ": " + text::suggestion(text, words);
+                     },
+                     ""},
+                    words);
 }
 
 CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& what) {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cmd/common/complete.h"
 #include "cmd/common/options.h"
 #include "lib/text/line.h"
 #include "lib/text/nearest.h"
@@ -123,11 +124,16 @@ std::string meanings(const std::vector<NamedTable>& tables) {
 }  // namespace
 
 void add_table(Command& command, TableOptions& options, const std::vector<NamedTable>& tables) {
+  std::vector<std::string> words{"help"};
+  for (const auto& table : tables) {
+    for (const auto& column : table.columns) words.push_back(column.name);
+  }
   command.app
       .add_option("-f,--fields", options.columns,
                   wrapped_list("Columns: ", text::names_of(tables.front().columns), ","))
       ->delimiter(',')
       ->option_text("NAME,...|help")
+      ->check(suggests(words))
       ->allow_extra_args(false)
       ->each([help = meanings(tables)](const std::string& name) {
         if (name == "help") throw Answer{help};

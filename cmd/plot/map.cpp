@@ -7,6 +7,8 @@
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
+#include "cmd/plot/thin.h"
+#include "cmd/plot/words.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/space.h"
 #include "lib/graph/replay.h"
@@ -17,10 +19,6 @@ namespace sg::plot {
 namespace {
 
 constexpr double margin = 24;
-
-struct Point {
-  double x, y;
-};
 
 // From metres to the page: one scale for both axes, the middle in the middle.
 struct Projection {
@@ -51,22 +49,40 @@ void draw_edge(cairo_t* page, std::span<const Index> ends, const std::vector<Poi
   }
 }
 
-void draw_edges(cairo_t* page, const Graph& graph, const std::vector<graph::EdgeRole>& roles,
-                graph::EdgeRole role, const std::vector<Point>& at) {
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (roles[e] == role) draw_edge(page, graph.edge(e), at);
+// Cairo takes long over a path of many lines that cross: where there are many, it gets them in pieces.
+void stroke(cairo_t* page, const std::vector<Segment>& segments, const std::vector<Point>& at) {
+  constexpr std::size_t many = 5000, piece = 200;
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const auto& [from, to] = segments[k];
+    cairo_move_to(page, at[from].x, at[from].y);
+    if (from == to) {
+      cairo_close_path(page);  // of no length: its caps are the dot
+    } else {
+      cairo_line_to(page, at[to].x, at[to].y);
+    }
+    if (segments.size() > many && k % piece == piece - 1) cairo_stroke(page);
   }
   cairo_stroke(page);
 }
 
+void draw_edges(cairo_t* page, const Graph& graph, const std::vector<graph::EdgeRole>& roles,
+                graph::EdgeRole role, const std::vector<Point>& at) {
+  std::vector<Segment> segments;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const auto ends = graph.edge(e);
+    for (std::size_t k = 1; k < ends.size() && roles[e] == role; ++k)
+      segments.push_back({ends[0], ends[k]});
+  }
+  stroke(page, thinned(std::move(segments), at), at);
+}
+
 void draw_dots(cairo_t* page, const Graph& graph, graph::Role role, const std::vector<Point>& at) {
   cairo_set_line_cap(page, CAIRO_LINE_CAP_ROUND);
+  std::vector<Segment> dots;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (graph.role(v) != role) continue;
-    cairo_move_to(page, at[v].x, at[v].y);
-    cairo_close_path(page);  // of no length: its caps are the dot
+    if (graph.role(v) == role) dots.push_back({v, v});
   }
-  cairo_stroke(page);
+  stroke(page, thinned(std::move(dots), at), at);
 }
 
 // The largest of 1, 2, 5 times a power of ten that is no longer than `metres`.
@@ -144,9 +160,13 @@ Placed placed(const Graph& graph, const std::array<int, 2>& axes, const PageSize
 }  // namespace
 
 void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
-              const std::array<int, 2>& axes) {
+              const std::array<int, 2>& axes, const std::string& title,
+              const std::vector<graph::EdgeRole>& only) {
   const auto [points, scale] = placed(graph, axes, size);
-  const std::vector<graph::EdgeRole> roles = graph::edge_roles(graph, graph::pose_index(graph));
+  std::vector<graph::EdgeRole> roles = graph::edge_roles(graph, graph::pose_index(graph));
+  for (graph::EdgeRole& role : roles) {
+    if (std::ranges::find(only, role) == only.end()) role = graph::EdgeRole::other;
+  }
   set_color(page, faint_color, 0.35);
   cairo_set_line_width(page, 0.3);
   draw_edges(page, graph, roles, graph::EdgeRole::observation, points);
@@ -161,7 +181,23 @@ void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
   set_color(page, landmark_color);
   cairo_set_line_width(page, 2.4);
   draw_dots(page, graph, graph::Role::landmark, points);
+  draw_ends(page, graph, points);
+  draw_ids(page, graph, points);
   draw_scale_bar(page, size, scale);
+  std::vector<std::pair<Color, std::string>> legend;
+  const auto explain = [&](graph::EdgeRole role, const Color& color, const char* words) {
+    if (std::ranges::find(roles, role) != roles.end()) legend.emplace_back(color, words);
+  };
+  explain(graph::EdgeRole::odometry, path_color, "odometry");
+  explain(graph::EdgeRole::loop_closure, loop_color, "loop closures");
+  explain(graph::EdgeRole::observation, faint_color, "observations");
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) != graph::Role::landmark) continue;
+    legend.emplace_back(landmark_color, "landmarks");
+    break;
+  }
+  draw_legend(page, size, legend);
+  draw_title(page, size, title, margin, 2 * margin / 3, 10);
 }
 
 namespace {

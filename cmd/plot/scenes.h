@@ -4,11 +4,13 @@
 #include <cairo.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "lib/elim/score.h"
 #include "lib/graph/graph.h"
 #include "lib/graph/pattern.h"
+#include "lib/graph/replay.h"
 #include "lib/score/covariance.h"
 
 namespace sg::plot {
@@ -23,10 +25,12 @@ struct PageSize {
 std::vector<std::array<double, 3>> positions(const Graph& graph);
 
 // The map, seen along the axis that is left when `axes` (of 0, 1, 2) go to the right and up: the
-// path in blue, loop closures in orange, landmarks in green, observations as faint lines. A bar
-// tells the scale.
+// path in blue, loop closures in orange, landmarks in green, observations as faint lines; of edges
+// those of `only`. A ring is where the poses begin, a square where they end; up to 50 vertices have
+// their ids. A bar tells the scale, a legend the colours. Many lines and dots are thinned (thin.h).
 void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
-              const std::array<int, 2>& axes);
+              const std::array<int, 2>& axes, const std::string& title,
+              const std::vector<graph::EdgeRole>& only);
 
 // The same map with variables and edges coloured, variables by what they cost, edges by what EC would lose without
 // them: colour and size grow with the square root of that, the costliest on top; free edges are faint.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -37,9 +38,9 @@ void align(Index count_a, Index count_b, const auto& order, const auto& both, co
     const auto c = i == count_a   ? std::strong_ordering::greater
                    : j == count_b ? std::strong_ordering::less
                                   : order(i, j);
-    if (c < 0) {
+    if (std::is_lt(c)) {
       only(i++, Index{-1});
-    } else if (c > 0) {
+    } else if (std::is_gt(c)) {
       only(Index{-1}, j++);
     } else {
       both(i++, j++);
@@ -78,7 +79,7 @@ struct Sorted {
     std::iota(edge.begin(), edge.end(), 0);
     std::sort(edge.begin(), edge.end(), [&](Index e, Index f) {
       const auto c = order(graph, e, graph, f);
-      return c < 0 || (c == 0 && e < f);
+      return std::is_lt(c) || (std::is_eq(c) && e < f);
     });
   }
   static std::strong_ordering order(const Graph& a, Index e, const Graph& b, Index f) {
@@ -91,7 +92,8 @@ struct Sorted {
   // The end of the run of equal keys that begins at place k.
   Index run_end(Index k) const {
     Index end = k + 1;
-    while (end < static_cast<Index>(edge.size()) && order(graph, edge[k], graph, edge[end]) == 0)
+    while (end < static_cast<Index>(edge.size()) &&
+           std::is_eq(order(graph, edge[k], graph, edge[end])))
       ++end;
     return end;
   }
@@ -152,9 +154,9 @@ std::vector<Difference> diff_edges(const Graph& a, const Graph& b, double tolera
   };
   while (i < a.edges() && j < b.edges()) {
     const auto c = Sorted::order(a, x.edge[i], b, y.edge[j]);
-    if (c < 0) {
+    if (std::is_lt(c)) {
       i = only(x, i, x.run_end(i));
-    } else if (c > 0) {
+    } else if (std::is_gt(c)) {
       j = only(y, j, y.run_end(j));
     } else {
       const Index end_i = x.run_end(i), end_j = y.run_end(j);

@@ -57,8 +57,9 @@ std::string odd_graph(Random& random) {
     if (!pose[a]) continue;
     const std::string ends = std::to_string(id[a]) + "  " + std::to_string(id[b]) + " ";
     const std::string x = std::to_string(draw(random, 0, 1));
-    lines.push_back(pose[b] ? "EDGE_SE2 " + ends + x + " 0 0 1 0 0 1 0 1"
-                            : " EDGE_SE2_XY " + ends + x + " 0 1 0 1\r");
+    std::string line = pose[b] ? "EDGE_SE2 " : " EDGE_SE2_XY ";
+    line.append(ends).append(x).append(pose[b] ? " 0 0 1 0 0 1 0 1" : " 0 1 0 1\r");
+    lines.push_back(std::move(line));
   }
   if (draw(random, 0, 1) == 0)
     lines.push_back("FIX " + std::to_string(id[0]) + "\t" + std::to_string(id[n - 1]) + " ");

@@ -38,7 +38,7 @@ terminal() {
 
 @test "an option without effect is an error" {
   for call in 'sg-solve -f ec' 'sg-solve --chi2 -m amd' 'sg-bayes --dot --json' 'sg-order --budget 3' 'sg-order --print --no-trace-comment' \
-    'sg-plot map -m amd' 'sg-plot tree --plane xz' 'sg-score --align sim' 'sg-ec --every 2' 'sg-cut --largest --min-obs 2' \
+    'sg-plot map --cost --only loops' 'sg-plot tree --plane xz' 'sg-score --align sim' 'sg-ec --every 2' 'sg-cut --largest --min-obs 2' \
     'sg-cut --ids 7' 'sg-tgreedy -r 2 --json' 'sg-convert --scalar' 'sg-predict --pose-dim 3' 'sg-ec --json --no-header'; do
     run -2 --separate-stderr $call walk.g2o
     [ -z "$output" ]
@@ -66,7 +66,7 @@ terminal() {
 }
 
 @test "every pruning command takes --seed" {
-  for command in sg-kf sg-dec sg-rand sg-tgreedy; do run -0 $command -r 2 --seed 3 walk.g2o; done
+  for command in sg-kf sg-dec sg-rand sg-tgreedy sg-ecgreedy; do run -0 $command -r 2 --seed 3 walk.g2o; done
 }
 
 @test "the name of an output promises what is written" {

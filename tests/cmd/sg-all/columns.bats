@@ -5,7 +5,7 @@ load ../common
 setup() { cd "$BATS_TEST_TMPDIR"; }
 
 MAN=$TESTDATA/../man
-tables='bayes diff ec elim info isam2 predict score solve tgreedy'
+tables='bayes diff ec ecgreedy elim info isam2 predict score solve tgreedy'
 
 # declared COMMAND: "name TAB meaning" of every column, as -f help has them.
 declared() { sg-"$1" -f help | sed -nE 's/ \(with .*\)$//; s/^([a-z_0-9]+) +/\1\t/p'; }
@@ -44,7 +44,7 @@ words() { tr 'A-Z' 'a-z' | grep -oE '[a-z]{3,}' | sort -u; }
 
 @test "the table that is printed has the columns of -f help, but for those that the call does not ask for" {
   cp "$TESTDATA/walk.g2o" .
-  for call in 'bayes' 'ec' 'elim' 'isam2' 'predict' 'score' 'solve --time 1' 'tgreedy -r 2 --trace'; do
+  for call in 'bayes' 'ec' 'ecgreedy -r 2 --trace' 'elim' 'isam2' 'predict' 'score' 'solve --time 1' 'tgreedy -r 2 --trace'; do
     unasked=$(sg-${call%% *} -f help | sed '/^With/,$d' | { grep -v '(with' || true; } | sed 's/ .*//' | paste -sd '\t')
     sizes=$(sg-${call%% *} -f help | { grep '(with a graph or counts)' || true; } | sed 's/ .*//' | paste -sd '\t')
     run -0 sg-$call walk.g2o

@@ -9,7 +9,7 @@ import sys
 sys.path.insert(0, os.path.dirname(__file__))
 from held import Held  # noqa: E402
 
-SOMETHING_TO_KEEP = ["sg-solve", "sg-tgreedy -r 2", "sg-order -m best --budget 1000000000t"]
+SOMETHING_TO_KEEP = ["sg-solve", "sg-tgreedy -r 2", "sg-ecgreedy -r 2", "sg-order -m best --budget 1000000000t"]
 NOTHING_TO_KEEP = ["sg-bayes", "sg-check", "sg-convert", "sg-cut --largest", "sg-dec -r 2", "sg-ec", "sg-elim",
                    "sg-info", "sg-isam2", "sg-kf -r 2",
                    "sg-order", "sg-plot map", "sg-predict -r 2", "sg-rand -r 2", "sg-score"]

@@ -8,9 +8,9 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
 
 @test "a map shows path, loop closures and landmarks, and its scale" {
   sg-plot map walk.g2o >map.svg
-  [ "$(shapes map.svg "$path")" -eq 2 ]  # odometry, poses
-  [ "$(shapes map.svg "$loop")" -eq 1 ]
-  [ "$(shapes map.svg "$landmark")" -eq 1 ]
+  [ "$(shapes map.svg "$path")" -eq 3 ]  # odometry, poses, and the legend
+  [ "$(shapes map.svg "$loop")" -eq 2 ]
+  [ "$(shapes map.svg "$landmark")" -eq 2 ]
   # five poses a metre apart from margin to margin
   grep -o 'M [0-9.]* 3[0-9.]* L [0-9.]* 3[0-9.]*' map.svg | head -n 1 | grep -qx 'M 576 [0-9.]* L 24 [0-9.]*'
 }
@@ -18,8 +18,8 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
 @test "a map of edges alone is composed along odometry" {
   sg-plot map walk.g2o >map.svg
   grep -v -e VERTEX -e FIX walk.g2o | sg-plot map >edges.svg
-  [ "$(shapes edges.svg "$path")" -eq 2 ]
-  [ "$(shapes edges.svg "$landmark")" -eq 1 ]
+  [ "$(shapes edges.svg "$path")" -eq 3 ]
+  [ "$(shapes edges.svg "$landmark")" -eq 2 ]
 }
 
 @test "costs are coloured by their share, the largest darkest" {
@@ -35,7 +35,7 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   # Without 1-2, eliminating 2 costs 3 * 6^2 and 1 its 3 * 3^2, of 3 * (9^2 + 6^2 + 3^2); without 2-3 the same
   [ "$(grep 'fill:none.*stroke:rgb(50%,0%,15%)' cost.svg | grep -c 'stroke-width:1.2;')" -eq 2 ]
   sg-order --apply order in.g2o | sg-plot map >map.svg
-  [ "$(shapes map.svg "$path")" -eq 2 ]
+  [ "$(shapes map.svg "$path")" -eq 3 ]  # odometry, poses, and the legend
   fails 2 "sg-plot: --cost has no effect on a tree, only on a map (see sg-plot --help)" sg-plot tree --cost in.g2o
   printf 'VERTEX_SE2 1 5 5 0\nFIX 1\n' | sg-plot map --cost >/dev/null
 }
@@ -111,4 +111,47 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
     sg-plot map walk.g2o -o a.jpg
   fails 2 "sg-plot: WHAT: hat: there are map, pattern, tree (see sg-plot --help)" sg-plot hat walk.g2o
   fails 2 "sg-plot: WHAT is required (see sg-plot --help)" sg-plot
+}
+
+# letters FILE: how many glyphs it shows.
+letters() { grep -c '<use xlink:href="#glyph' "$1"; }
+
+@test "a map says what it is, where it begins and ends, and up to 50 ids" {
+  sg-gen manhattan -n 60 -o m.g2o
+  sg-cut --poses 50 --no-trace-comment m.g2o >n.g2o
+  sg-cut --poses 51 --no-trace-comment m.g2o >o.g2o
+  sg-plot map n.g2o -o n.svg
+  sg-plot map o.g2o -o o.svg
+  [ "$(($(letters n.svg) - $(letters o.svg)))" -gt 80 ]  # 0 to 49: 90 digits
+  [ "$(grep -c 'stroke-width:1.2' o.svg)" = 2 ]  # a ring and a square
+  grep 'stroke-width:1.2' o.svg | tail -n 1 | grep -q ' d="M [0-9.]* [0-9.]* L [^C]*Z'
+  # A longer name, a longer title, and not beyond the page.
+  cp o.g2o "$(printf 'long%.0s' $(seq 40)).g2o"
+  sg-plot map long*.g2o -o long.svg
+  [ "$(letters long.svg)" -gt "$(($(letters o.svg) + 150))" ]
+  [ "$(grep -o '<use xlink:href="#glyph[^"]*" x="[0-9.]*' long.svg | sed 's/.*x="//' | sort -g | tail -n 1 | cut -d . -f 1)" -lt 600 ]
+  for what in pattern tree; do
+    sg-plot $what o.g2o -o $what.svg
+    [ "$(letters $what.svg)" -gt 30 ]
+  done
+}
+
+@test "a map of some edges only" {
+  sg-plot map --only odometry walk.g2o >some.svg
+  [ "$(shapes some.svg "$loop")" -eq 0 ]
+  [ "$(shapes some.svg "$path")" -eq 3 ]
+  sg-plot map --only loops,observations walk.g2o >some.svg
+  [ "$(shapes some.svg "$loop")" -eq 2 ]
+  [ "$(shapes some.svg "$path")" -eq 1 ]  # poses
+  sg-plot map --only odometry,loops,observations walk.g2o | cmp - <(sg-plot map walk.g2o)
+  fails 2 "sg-plot: --only rods: there are odometry, loops, observations (see sg-plot --help)" sg-plot map --only rods walk.g2o
+  fails 2 "sg-plot: --only has no effect with --cost, which colours all edges (see sg-plot --help)" sg-plot map --cost --only loops walk.g2o
+}
+
+@test "a large graph is thinned: its picture stays small, and reaches as far" {
+  sg-gen manhattan -n 60000 -o m.g2o
+  sg-plot map m.g2o -o m.svg
+  [ "$(stat -c %s m.svg)" -lt 5000000 ]
+  [ "$(grep -oE ' L ' m.svg | wc -l)" -lt 110000 ]
+  [ "$(grep -oE ' L ' m.svg | wc -l)" -gt 20000 ]
 }
