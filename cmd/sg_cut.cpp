@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cmd/common/command.h"
+#include "cmd/common/ids.h"
 #include "cmd/common/options.h"
 #include "lib/graph/cut.h"
 #include "lib/text/words.h"
@@ -21,31 +22,8 @@ struct Options {
   std::vector<std::string> ids;
 };
 
-// "A" or "A:B"; a usage Error for anything else.
-std::pair<Id, Id> parse_range(const std::string& option, std::string_view text) {
-  const auto colon = text.find(':');
-  const auto first = text::parse<Id>(text.substr(0, colon));
-  const auto last = colon == text.npos ? first : text::parse<Id>(text.substr(colon + 1));
-  if (!first || !last || *first < 0 || *last < *first)
-    throw text::usage_error(option + " " + std::string(text) + " is no range FIRST:LAST");
-  return {*first, *last};
-}
-
-graph::Part ranges_of_ids(const Graph& graph, const std::vector<std::string>& ids) {
-  std::vector<std::pair<Id, Id>> ranges;
-  ranges.reserve(ids.size());
-  for (const auto& text : ids) {
-    const auto [first, last] = parse_range("--ids", text);
-    const auto there = std::ranges::lower_bound(graph.id, first);
-    if (there == graph.id.end() || *there > last)
-      throw text::usage_error("--ids " + text + ": the graph has no such vertex");
-    ranges.emplace_back(first, last);
-  }
-  return graph::of_ids(graph, ranges);
-}
-
 graph::Part range_of_poses(const Graph& graph, const std::string& text) {
-  const auto [first, last] = parse_range("--range", text);
+  const auto [first, last] = cmd::id_range("--range", text);
   const graph::PoseIndex poses = graph::pose_index(graph);
   const auto count = static_cast<Id>(poses.pose.size());
   if (first >= count)
@@ -67,7 +45,7 @@ graph::Part part(const Graph& graph, const Options& options) {
   if (!options.range.empty()) return range_of_poses(graph, options.range);
   if (options.component) return component_of(graph, *options.component);
   if (options.largest) return graph::largest_component(graph);
-  return ranges_of_ids(graph, options.ids);
+  return graph::of_ids(graph, cmd::ranges_of_vertices(graph, "--ids", options.ids));
 }
 
 void check_call(const cmd::Command& command, const Options& options) {
@@ -79,8 +57,8 @@ void check_call(const cmd::Command& command, const Options& options) {
                     {"--ids", "vertices by id"}},
                    "which part?");
   if (!options.poses) cmd::refuse(command.app, {"--min-obs"}, "without --poses");
-  if (!options.range.empty()) parse_range("--range", options.range);
-  for (const auto& text : options.ids) parse_range("--ids", text);
+  if (!options.range.empty()) cmd::id_range("--range", options.range);
+  for (const auto& text : options.ids) cmd::id_range("--ids", text);
 }
 
 void check_rest(const Graph& graph, const graph::Part& kept) {
