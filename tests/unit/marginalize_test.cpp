@@ -10,6 +10,7 @@
 #include "lib/factor/linearize.h"
 #include "lib/factor/relative.h"
 #include "lib/marginalize/recover.h"
+#include "lib/score/divergence.h"
 #include "lib/text/error.h"
 #include "tests/unit/common.h"
 
@@ -452,6 +453,47 @@ TEST_CASE("the denser the topology, the nearer the Gaussian", "[marginalize]") {
     CHECK(divergence_of(full, removed, {.linear = true}) < 1e-9);
   }
   CHECK(lost > 1);
+}
+
+TEST_CASE("a graph's divergence from a larger one is that of dense Gaussians", "[marginalize]") {
+  for (int seed = 0; seed < 20; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    const bool anchored = seed % 4 == 0;
+    const Subject full(random_text(random, {.plane = anchored || seed % 2 == 0,
+                                            .poses = 7,
+                                            .closures = 9,
+                                            .landmarks = 2,
+                                            .anchored = anchored}));
+    std::vector<bool> removed(full.graph.vertices(), false);
+    for (Index v = 1; v < 7; v += draw(random, 1, 2)) removed[v] = true;
+    for (const bool linear : {false, true}) {
+      const Subject left(
+          rewritten(full, marginalize::marginalize(full.at(), removed, {.linear = linear})));
+      const auto held = anchored ? 0 : full.at().dim(0);
+      Gaussian p = schur(full, removed);
+      marginalize::Piece q = left.whole();
+      const auto rest = p.gradient.size() - held;
+      const MatrixXd P = p.information.bottomRightCorner(rest, rest),
+                     Q = q.information.bottomRightCorner(rest, rest);
+      const VectorXd apart =
+          P.ldlt().solve(p.gradient.tail(rest)) - Q.ldlt().solve(q.gradient.tail(rest));
+      const auto given = score::divergence(left.graph, full.graph);
+      REQUIRE(given);
+      const double expected = divergence(Q, P.inverse()) + apart.dot(Q * apart) / 2;
+      CHECK(given->kld == Approx(expected).epsilon(1e-7).margin(1e-8));
+      const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ratios(Q, P);
+      CHECK(given->overconfidence == Approx(ratios.eigenvalues().maxCoeff()).epsilon(1e-6));
+      if (linear) CHECK(given->kld < 1e-8);
+      if (linear) CHECK(given->overconfidence == Approx(1).epsilon(1e-8));
+    }
+    const auto same = score::divergence(full.graph, full.graph);
+    REQUIRE(same);
+    CHECK(same->kld < 1e-9);
+    const Subject less(
+        "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 999 1 0 0\nEDGE_SE2 0 999 1 0 0 1 0 0 1 0 1\n");
+    CHECK(!score::divergence(less.graph, full.graph));
+  }
 }
 
 TEST_CASE("no spanning tree is nearer than that which is chosen", "[marginalize]") {
