@@ -212,7 +212,7 @@ void run(const cmd::Command& command, const Options& options) {
     throw text::input_error(graph.file, 0,
                             "there are no VERTEX lines, hence no estimates to linearize at "
                             "(sg-solve adds them)");
-  cmd::stage("marginalize", count);
+  cmd::stage("remove", count);
   const factor::Problem problem = factor::make_problem(graph);
   const factor::Values values = factor::file_values(problem);
   marginalize::Marginalization result = marginalize::marginalize(

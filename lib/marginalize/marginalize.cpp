@@ -1,6 +1,7 @@
 #include "lib/marginalize/marginalize.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <deque>
 #include <queue>
@@ -138,6 +139,24 @@ VectorXd mean(const Blanket& blanket, const std::vector<Pair>& pairs,
   return Eigen::LLT<MatrixXd>(Q).solve(blanket.gradient);
 }
 
+// Makes measurements know no more than the blanket, as they are linearized with the errors that they have at the
+// estimates, and not without as they were recovered.
+void temper(const At& at, const Blanket& blanket, std::vector<Measurement>& measurements) {
+  std::vector<Piece> pieces;
+  std::vector<const Piece*> all;
+  pieces.reserve(measurements.size());
+  for (const Measurement& measurement : measurements) {
+    pieces.push_back(piece_of(at, measurement));
+    all.push_back(&pieces.back());
+  }
+  const Piece whole = sum(at, all);  // of all vertices of the blanket: they span it
+  const MatrixXd Q = whole.information(blanket.scalars, blanket.scalars);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ratios(Q, blanket.information,
+                                                                  Eigen::EigenvaluesOnly);
+  const double most = ratios.eigenvalues().maxCoeff();
+  for (Measurement& measurement : measurements) measurement.information /= std::max(1.0, most);
+}
+
 // A piece becomes measurements.
 void make_sparse(Live& live, const Piece& piece, std::span<const Index> cluster) {
   const At& at = live.at;
@@ -160,10 +179,14 @@ void make_sparse(Live& live, const Piece& piece, std::span<const Index> cluster)
     if (v < 0 || around.start[place] < 0) return VectorXd::Zero(dim);
     return step.segment(around.start[place], dim);
   };
+  std::vector<Measurement> measurements;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const Measurable& of = pairs[chosen[k]].of;
-    Measurement measurement{of, measured(at, of, step_of(of.first), step_of(of.second)),
-                            recovery.information[k]};
+    measurements.push_back(
+        {of, measured(at, of, step_of(of.first), step_of(of.second)), recovery.information[k]});
+  }
+  if (live.rule.conservative) temper(at, around, measurements);
+  for (Measurement& measurement : measurements) {
     Piece own = piece_of(at, measurement);
     add(live, std::move(own), std::move(measurement));
   }

@@ -167,7 +167,7 @@ Blanket blanket(const At& at, const Piece& piece) {
   const auto held = piece.absolute                 ? std::ssize(piece.vertices)
                     : pose == piece.vertices.end() ? 0
                                                    : pose - piece.vertices.begin();
-  std::vector<int> rest;
+  std::vector<int>& rest = result.scalars;
   for (Index k = 0; k < std::ssize(piece.vertices); ++k) {
     result.start.push_back(k == held ? -1 : static_cast<int>(rest.size()));
     for (int i = start[k]; k != held && i < start[k + 1]; ++i) rest.push_back(i);

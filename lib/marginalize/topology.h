@@ -25,6 +25,7 @@ struct Sparsity {
 struct Blanket {
   std::vector<Index> vertices;
   std::vector<int> start;       // where the step of each starts, -1 of the one that is held
+  std::vector<int> scalars;     // of the piece's, those that are not
   Eigen::MatrixXd information;  // regular: where nothing is known, next to nothing is
   Eigen::VectorXd gradient;
   bool regular;  // whether it was so before
