@@ -1,11 +1,11 @@
-// sg-cut: keep a part of a graph: steps, poses, ids, or what is connected.
+// sg-cut: keep a part of a graph: steps, poses, ids, tags, or what is connected.
 #include <algorithm>
 
 #include "cmd/common/command.h"
-#include "cmd/common/ids.h"
 #include "cmd/common/options.h"
+#include "cmd/common/ranges.h"
 #include "lib/graph/cut.h"
-#include "lib/text/words.h"
+#include "lib/text/nearest.h"
 
 using namespace sg;
 
@@ -20,10 +20,11 @@ struct Options {
   std::optional<Id> component;
   bool largest = false;
   std::vector<std::string> ids;
+  std::vector<std::string> tags, without;
 };
 
 graph::Part range_of_poses(const Graph& graph, const std::string& text) {
-  const auto [first, last] = cmd::id_range("--range", text);
+  const auto [first, last] = cmd::parse_range("--range", text);
   const graph::PoseIndex poses = graph::pose_index(graph);
   const auto count = static_cast<Id>(poses.pose.size());
   if (first >= count)
@@ -39,12 +40,41 @@ graph::Part component_of(const Graph& graph, Id id) {
   return graph::component_of(graph, *v);
 }
 
+// The types that these tags mean.
+graph::Types types_of(const Graph& graph, const std::string& option,
+                      const std::vector<std::string>& tags) {
+  graph::Types types{std::vector<bool>(graph.tags.vertices.size(), false),
+                     std::vector<bool>(graph.tags.edges.size(), false)};
+  for (const auto& tag : tags) {
+    const graph::TagMeaning* const meaning = graph.tags.find(tag);
+    if (meaning && meaning->kind == graph::LineKind::vertex) {
+      types.vertex[meaning->type] = true;
+    } else if (meaning && meaning->kind == graph::LineKind::edge) {
+      types.edge[meaning->type] = true;
+    } else {
+      std::vector<std::string> known;
+      for (const auto& [name, count] : formats::count_tags(graph.text.view)) {
+        const graph::TagMeaning* const other = graph.tags.find(name);
+        if (other &&
+            (other->kind == graph::LineKind::vertex || other->kind == graph::LineKind::edge))
+          known.push_back(name);
+      }
+      throw text::usage_error(option + " " + tag + ": no vertex or edge has this tag; " +
+                              text::suggestion(tag, known));
+    }
+  }
+  return types;
+}
+
 graph::Part part(const Graph& graph, const Options& options) {
   if (options.poses)
     return graph::first_steps(graph, graph::pose_index(graph), *options.poses, options.min_obs);
   if (!options.range.empty()) return range_of_poses(graph, options.range);
   if (options.component) return component_of(graph, *options.component);
   if (options.largest) return graph::largest_component(graph);
+  if (!options.tags.empty()) return graph::of_types(graph, types_of(graph, "--tags", options.tags));
+  if (!options.without.empty())
+    return graph::without_types(graph, types_of(graph, "--without", options.without));
   return graph::of_ids(graph, cmd::ranges_of_vertices(graph, "--ids", options.ids));
 }
 
@@ -54,11 +84,13 @@ void check_call(const cmd::Command& command, const Options& options) {
                     {"--range", "poses by index"},
                     {"--component", "what is connected to a vertex"},
                     {"--largest", "the largest connected part"},
-                    {"--ids", "vertices by id"}},
+                    {"--ids", "vertices by id"},
+                    {"--tags", "lines by tag"},
+                    {"--without", "lines of other tags"}},
                    "which part?");
   if (!options.poses) cmd::refuse(command.app, {"--min-obs"}, "without --poses");
-  if (!options.range.empty()) cmd::id_range("--range", options.range);
-  for (const auto& text : options.ids) cmd::id_range("--ids", text);
+  if (!options.range.empty()) cmd::parse_range("--range", options.range);
+  cmd::parse_ranges("--ids", options.ids);
 }
 
 void check_rest(const Graph& graph, const graph::Part& kept) {
@@ -104,6 +136,16 @@ void add_options(cmd::Command& command, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("ID,FIRST:LAST,...");
+  app.add_option("--tags", options.tags,
+                 "Keep vertices of these tags and the edges among\nthem, edges and what they join")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("TAG,...");
+  app.add_option("--without", options.without,
+                 "Leave these out, and what is no pose and joined by\nno edge any more")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("TAG,...");
   cmd::add_entry(app, options.min_obs, "With --poses: a landmark");
   cmd::add_filter_output(command, options.output);
 }

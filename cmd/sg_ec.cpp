@@ -1,4 +1,4 @@
-// sg-ec: what a graph costs to eliminate; over time with --trace, by variable with --per-vertex.
+// sg-ec: what a graph costs to eliminate; over time with --trace, by variable with --per-vertex, by edge with --per-edge.
 #include <numeric>
 
 #include "cmd/common/command.h"
@@ -6,6 +6,7 @@
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
 #include "lib/elim/bayes_tree.h"
+#include "lib/elim/row_price.h"
 #include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 
@@ -22,6 +23,7 @@ struct Options {
   Index every = 1;
   Index min_obs = 1;
   bool per_vertex = false;
+  bool per_edge = false;
 };
 
 // A graph, or the part of it that has entered by some step, under one order.
@@ -67,6 +69,14 @@ struct VertexRow {
   double ec;
 
   elim::Wide cost() const { return elim::elimination_cost(frontal, frontal + separator); }
+};
+
+struct EdgeRow {
+  const Subject& subject;
+  Index edge;
+  graph::EdgeRole role;
+  elim::Wide price;
+  double ec;
 };
 
 template <class Row>
@@ -120,6 +130,46 @@ const std::vector<cmd::Column<VertexRow>> vertex_columns{
     {"cost", "d_f (d_f + d_s)^2", [](VertexRow& row) { return row.cost(); }},
     {"share", "Of EC", [](VertexRow& row) { return elim::to_double(row.cost()) / row.ec; }},
 };
+
+std::string_view name(graph::EdgeRole role) {
+  switch (role) {
+    case graph::EdgeRole::odometry:
+      return "odometry";
+    case graph::EdgeRole::loop_closure:
+      return "loop";
+    case graph::EdgeRole::observation:
+      return "observation";
+    default:
+      return "other";
+  }
+}
+
+cmd::IdList ids(EdgeRow& row) {
+  cmd::IdList result;
+  for (const Index v : row.subject.graph.edge(row.edge)) result.push_back(row.subject.graph.id[v]);
+  return result;
+}
+
+const std::vector<cmd::Column<EdgeRow>> edge_columns{
+    file_column<EdgeRow>(),
+    order_column<EdgeRow>(),
+    {"ids", "Of its vertices", ids},
+    {"tag", "Its type", [](EdgeRow& row) { return row.subject.graph.type_of_edge(row.edge).tag; }},
+    {"role", "odometry, loop, observation or other", [](EdgeRow& row) { return name(row.role); }},
+    {"price", "What EC would lose without it", &EdgeRow::price},
+    {"share", "Of EC",
+     [](EdgeRow& row) { return row.ec > 0 ? elim::to_double(row.price) / row.ec : 0; }},
+    {"free", "yes where its price is 0, else no", [](EdgeRow& row) { return row.price == 0; }},
+};
+
+void edge_rows(cmd::Table<EdgeRow>& table, const Subject& subject) {
+  const graph::Order order = order_of(subject);
+  const graph::Pattern& pattern = subject.variables.pattern;
+  const double ec = elim::to_double(elim::elimination_complexity(pattern, order));
+  const std::vector<elim::Wide> prices = elim::row_prices(pattern, order);
+  const auto roles = graph::edge_roles(subject.graph, graph::pose_index(subject.graph));
+  for (Index e = 0; e < subject.edges; ++e) table.row({subject, e, roles[e], prices[e], ec});
+}
 
 void vertex_rows(cmd::Table<VertexRow>& table, const Subject& subject) {
   const graph::Order order = order_of(subject);
@@ -180,16 +230,21 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_entry(app, options.min_obs, "With --trace: a landmark");
   app.add_flag("--per-vertex", options.per_vertex, "A row for every variable, in elimination order")
       ->option_text(" ");
+  app.add_flag("--per-edge", options.per_edge,
+               "A row for every edge: what EC would lose without it")
+      ->option_text(" ");
   cmd::add_output(command, options.output);
-  cmd::add_table(
-      command, options.table,
-      {{"", cmd::headings(score_columns)}, {"With --per-vertex:", cmd::headings(vertex_columns)}});
+  cmd::add_table(command, options.table,
+                 {{"", cmd::headings(score_columns)},
+                  {"With --per-vertex:", cmd::headings(vertex_columns)},
+                  {"With --per-edge:", cmd::headings(edge_columns)}});
 }
 
 void score(const cmd::Command& command, const Options& options) {
   cmd::check_form(command.app);
-  cmd::at_most_one(command.app,
-                   {{"--trace", "prints a row a step"}, {"--per-vertex", "a row a variable"}});
+  cmd::at_most_one(command.app, {{"--trace", "prints a row a step"},
+                                 {"--per-vertex", "a row a variable"},
+                                 {"--per-edge", "a row an edge"}});
   if (!options.trace) cmd::refuse(command.app, {"--every", "--min-obs"}, "without --trace");
   cmd::check(options.methods);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
@@ -205,6 +260,9 @@ void score(const cmd::Command& command, const Options& options) {
   if (options.per_vertex) {
     cmd::Table table(options.table, vertex_columns, given, output);
     show_files([&](const Subject& subject) { vertex_rows(table, subject); });
+  } else if (options.per_edge) {
+    cmd::Table table(options.table, edge_columns, given, output);
+    show_files([&](const Subject& subject) { edge_rows(table, subject); });
   } else {
     cmd::Table table(options.table, score_columns, given, output);
     show_files([&](const Subject& subject) { table.row({subject}); });

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "cmd/common/command.h"
-#include "cmd/common/ids.h"
 #include "cmd/common/options.h"
+#include "cmd/common/ranges.h"
 #include "lib/marginalize/marginalize.h"
 #include "lib/prune/keyframes.h"
 #include "lib/text/words.h"

@@ -11,7 +11,9 @@
 #include "lib/factor/initialize.h"
 #include "lib/geometry/numbers.h"
 #include "lib/graph/summary.h"
+#include "lib/prune/keyframes.h"
 #include "lib/score/divergence.h"
+#include "lib/score/fill.h"
 #include "lib/score/sigma.h"
 #include "lib/score/trajectory.h"
 #include "lib/trees/connectivity.h"
@@ -27,6 +29,7 @@ struct Options {
   cmd::MethodOptions method;
   std::string weights = "unit";
   std::string reference;
+  std::string fill;
   std::string align = "se";
   bool per_pose = false;
 };
@@ -41,6 +44,7 @@ struct Reference {
 struct Subject {
   const Options& options;
   const std::optional<Reference>& reference;
+  const std::optional<score::Odometry>& odometry;  // to place dropped poses by
   const std::string& file;
   const Graph& graph;
   trees::Weights weights;
@@ -56,7 +60,10 @@ struct Subject {
   bool singular = false;                                      // once it has been eliminated
 
   const score::Trajectory& trajectory() {
-    return cmd::once(trajectory_, [&] { return score::trajectory(graph); });
+    return cmd::once(trajectory_, [&] {
+      score::Trajectory kept = score::trajectory(graph);
+      return odometry ? score::filled(kept, *odometry) : kept;
+    });
   }
   double log_trees() {
     return cmd::once(log_trees_, [&] { return trees::log_trees(graph, weights); });
@@ -173,6 +180,11 @@ void add_options(cmd::Command& command, Options& options) {
                   "A graph, or for ATE and RPE alone a\ntrajectory (TUM, KITTI)")
       ->option_text("FILE");
   command.app
+      .add_option(
+          "--fill", options.fill,
+          "With --reference: place poses that were dropped\nfrom this graph by its odometry")
+      ->option_text("FULL");
+  command.app
       .add_option("--align", options.align,
                   "Move onto it: se (rigidly; the default), sim (and\nscale), none")
       ->option_text("HOW")
@@ -189,6 +201,21 @@ Reference read_reference(const std::string& path, formats::ReadOptions options) 
   options.format.clear();
   cmd::begin_reading(path);
   return {formats::read_graph(path, options)};
+}
+
+score::Odometry read_odometry(const std::string& path, formats::ReadOptions options) {
+  options.format.clear();
+  cmd::begin_reading(path);
+  const Graph graph = formats::read_graph(path, options);
+  const graph::PoseIndex poses = graph::pose_index(graph);
+  const graph::Lists<> steps = prune::odometry_steps(graph, poses);
+  score::Odometry odometry;
+  for (Index k = 0; k < steps.size(); ++k) {
+    odometry.id.push_back(graph.id[poses.pose[k]]);
+    auto& step = odometry.step.emplace_back();
+    if (!steps[k].empty()) step = prune::mean(prune::step_motion(graph, poses, steps, k));
+  }
+  return odometry;
 }
 
 // Columns of a reference are asked for in vain without one.
@@ -233,7 +260,8 @@ void print_poses(cmd::Table<PoseRow>& table, Subject& subject, const cmd::Method
 
 void check_call(const cmd::Command& command, const Options& options) {
   cmd::check_form(command.app);
-  if (options.reference.empty()) cmd::refuse(command.app, {"--align"}, "without --reference");
+  if (options.reference.empty())
+    cmd::refuse(command.app, {"--align", "--fill"}, "without --reference");
   if (options.per_pose) {
     cmd::refuse(command.app, {"--reference", "--weights"}, "with --per-pose");
     if (options.method.names.size() > 1)
@@ -260,11 +288,13 @@ void run(const cmd::Command& command, const Options& options) {
   std::optional<Reference> reference;
   if (!options.reference.empty())
     reference = read_reference(options.reference, options.inputs.options);
+  std::optional<score::Odometry> odometry;
+  if (!options.fill.empty()) odometry = read_odometry(options.fill, options.inputs.options);
   const trees::Weights weights = trees::tree_weights(options.weights).value();
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
     cmd::stage("score");
-    Subject subject{options, reference, path, graph, weights};
+    Subject subject{options, reference, odometry, path, graph, weights};
     if (reference) warn_of_reference(command, subject);
     for (const cmd::Method& method : cmd::methods(options.method, graph)) {
       if (table) table->row({subject, method});

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "lib/elim/score.h"
+#include "lib/elim/row_price.h"
 
 namespace sg::plot {
 namespace {
@@ -57,6 +57,9 @@ Costs costs(const graph::GraphPattern& variables, const graph::Order& order, std
   }
   result.ascending = variables.variable_vertex;
   std::ranges::stable_sort(result.ascending, {}, [&](Index v) { return result.vertex[v]; });
+  for (const elim::Wide price : elim::row_prices(variables.pattern, order))
+    result.edge.push_back(elim::to_double(price));
+  for (const double price : result.edge) result.largest_edge = std::max(result.largest_edge, price);
   return result;
 }
 

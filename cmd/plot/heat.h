@@ -13,13 +13,15 @@ namespace sg::plot {
 // From light yellow (0) by orange and red to dark red (1).
 Color heat(double value);
 
-// What every variable costs under an order, and what they cost together: EC.
+// What every variable costs under an order, and what they cost together: EC; and what EC would lose without an edge.
 struct Costs {
   std::string order;             // its name
   std::vector<double> vertex;    // d_f (d_f + d_s)^2 of every vertex; 0 of constants
   std::vector<Index> ascending;  // the vertices that are variables, by cost
+  std::vector<double> edge;      // the price of every edge; 0 of free ones
   double total = 0;
-  double largest = 0;
+  double largest = 0;       // of vertices
+  double largest_edge = 0;  // of edges
 };
 Costs costs(const graph::GraphPattern& variables, const graph::Order& order, std::string name);
 

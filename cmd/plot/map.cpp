@@ -44,15 +44,17 @@ Projection fit(const std::vector<Point>& points, const PageSize& size) {
   return {scale, {left->x + width / 2, low->y + height / 2}, {size.width / 2, size.height / 2}};
 }
 
+void draw_edge(cairo_t* page, std::span<const Index> ends, const std::vector<Point>& at) {
+  for (std::size_t k = 1; k < ends.size(); ++k) {
+    cairo_move_to(page, at[ends[0]].x, at[ends[0]].y);
+    cairo_line_to(page, at[ends[k]].x, at[ends[k]].y);
+  }
+}
+
 void draw_edges(cairo_t* page, const Graph& graph, const std::vector<graph::EdgeRole>& roles,
                 graph::EdgeRole role, const std::vector<Point>& at) {
   for (Index e = 0; e < graph.edges(); ++e) {
-    if (roles[e] != role) continue;
-    const auto ends = graph.edge(e);
-    for (std::size_t k = 1; k < ends.size(); ++k) {
-      cairo_move_to(page, at[ends[0]].x, at[ends[0]].y);
-      cairo_line_to(page, at[ends[k]].x, at[ends[k]].y);
-    }
+    if (roles[e] == role) draw_edge(page, graph.edge(e), at);
   }
   cairo_stroke(page);
 }
@@ -174,12 +176,30 @@ void draw_faint_edges(cairo_t* page, const Graph& graph, const std::vector<Point
   }
 }
 
+// Those that are not free, by their price, the dearest on top.
+void draw_priced_edges(cairo_t* page, const Graph& graph, const std::vector<Point>& points,
+                       const Costs& costs) {
+  std::vector<Index> ascending;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (costs.edge[e] > 0) ascending.push_back(e);
+  }
+  std::ranges::stable_sort(ascending, {}, [&](Index e) { return costs.edge[e]; });
+  for (const Index e : ascending) {
+    const double value = std::sqrt(costs.edge[e] / costs.largest_edge);
+    set_color(page, heat(value));
+    cairo_set_line_width(page, 0.3 + 0.9 * value);
+    draw_edge(page, graph.edge(e), points);
+    cairo_stroke(page);
+  }
+}
+
 }  // namespace
 
 void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs) {
   const auto [points, scale] = placed(graph, axes, size);
   draw_faint_edges(page, graph, points);
+  draw_priced_edges(page, graph, points, costs);
   for (const Index v : costs.ascending) {
     const double value = std::sqrt(costs.vertex[v] / costs.largest);
     set_color(page, heat(value));

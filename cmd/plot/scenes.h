@@ -28,8 +28,8 @@ std::vector<std::array<double, 3>> positions(const Graph& graph);
 void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
               const std::array<int, 2>& axes);
 
-// The same map with all edges faint, and variables coloured by what they cost: colour and radius
-// grow with the square root of a variable's cost, the costliest on top.
+// The same map with variables and edges coloured, variables by what they cost, edges by what EC would lose without
+// them: colour and size grow with the square root of that, the costliest on top; free edges are faint.
 struct Costs;
 void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs);

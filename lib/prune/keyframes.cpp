@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "lib/geometry/numbers.h"
 #include "lib/text/error.h"
@@ -21,6 +25,15 @@ SE3 estimate(const Graph& graph, Index v) {
   return normalized(geometry::se3(n.data()));
 }
 
+// Throws where edges of e's type cannot be fused.
+void require_fusible(const Graph& graph, Index e, const std::string& which) {
+  if (graph.edges_only && graph.edge_tag(e) == graph::EdgeTag::expmap) {
+    throw graph::error_at(graph, graph.edge_line[e],
+                          "cannot fuse several " + graph.type_of_edge(e).tag + " " + which +
+                              " without pose estimates");
+  }
+}
+
 // Throws unless all edges of step k can be composed, and fused if there are several.
 void require_composable(const Graph& graph, const graph::Lists<>& odometry, Index k) {
   for (Index e : odometry[k]) {
@@ -30,26 +43,16 @@ void require_composable(const Graph& graph, const graph::Lists<>& odometry, Inde
           graph, graph.edge_line[e],
           "cannot compose odometry of type " + type.tag + " across dropped poses");
     }
-    if (graph.edges_only && odometry[k].size() > 1 && graph.edge_tag(e) == graph::EdgeTag::expmap) {
-      throw graph::error_at(
-          graph, graph.edge_line[e],
-          "cannot fuse several " + type.tag + " of one step without pose estimates");
-    }
+    if (odometry[k].size() > 1) require_fusible(graph, e, "of one step");
   }
 }
 
-// The motion of step k, from pose k - 1 to pose k. Several edges are fused.
-Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
-                   const graph::Lists<>& odometry, Index k) {
-  std::vector<Motion> motions;
-  for (Index e : odometry[k]) {
-    const Motion forward_or_back = motion(graph, e).value();
-    const bool back = graph.edge(e)[0] == poses.pose[k];
-    motions.push_back(back ? inverse(forward_or_back) : forward_or_back);
-  }
+// Several measurements of a motion from pose `from` on as one.
+Motion fuse_from(const Graph& graph, const graph::PoseIndex& poses, Index from,
+                 const std::vector<Motion>& motions) {
   const bool needs_estimate =
       motions.size() > 1 && std::holds_alternative<ExpmapMotion>(motions[0]);
-  return fuse(motions, needs_estimate ? estimate(graph, poses.pose[k - 1]) : SE3{});
+  return fuse(motions, needs_estimate ? estimate(graph, poses.pose[from]) : SE3{});
 }
 
 // Nearest keyframe of every pose within its segment, the earlier of two equally near.
@@ -73,6 +76,10 @@ bool is_keyframe(const Keyframing& kf, Index k) {
   return kf.nearest[k] == k;
 }
 
+Index host_of(const Keyframing& kf, Index k) {
+  return kf.host[kf.nearest[k]];
+}
+
 bool touches_dropped(const Keyframing& kf, Index e) {
   const auto ends = kf.graph.edge(e);
   return std::any_of(ends.begin(), ends.end(), [&](Index v) { return kf.removal.vertex[v]; });
@@ -91,6 +98,11 @@ void compose_odometry(Keyframing& kf, Index a, Index b) {
   }
   kf.removal.edge[carrier] = false;
   kf.rewritten[carrier] = true;
+  kf.composed[carrier] = true;
+}
+
+bool is_merged(const Keyframing& kf, Index k) {
+  return kf.host[k] != k;
 }
 
 void settle_odometry(Keyframing& kf) {
@@ -98,7 +110,10 @@ void settle_odometry(Keyframing& kf) {
   Index last = 0;  // keyframe
   for (Index k = 1; k < n; ++k) {
     if (!is_keyframe(kf, k)) continue;
-    if (!kf.odometry[k].empty() && k > last + 1) compose_odometry(kf, last, k);
+    const bool changed = k > last + 1 || is_merged(kf, last) || is_merged(kf, k);
+    const bool falls_together =
+        kf.host[last] == kf.host[k];  // and goes, as what is not composed does
+    if (!kf.odometry[k].empty() && changed && !falls_together) compose_odometry(kf, last, k);
     last = k;
   }
 }
@@ -106,7 +121,7 @@ void settle_odometry(Keyframing& kf) {
 // A loop closure between other poses than keyframes; false where its ends fall together.
 bool move_loop(Keyframing& kf, Index e) {
   const auto ends = kf.graph.edge(e);
-  if (kf.nearest[kf.poses.index[ends[0]]] == kf.nearest[kf.poses.index[ends[1]]]) {
+  if (host_of(kf, kf.poses.index[ends[0]]) == host_of(kf, kf.poses.index[ends[1]])) {
     ++kf.collapsed_loops;
     return false;
   }
@@ -178,18 +193,6 @@ void set_milestones(Keyframing& kf) {
   }
 }
 
-// A line that names a vertex before the file defines it would not be read by g2o.
-void find_late_lines(Keyframing& kf) {
-  if (kf.graph.edges_only) return;
-  for (Index e = 0; e < kf.graph.edges(); ++e) {
-    if (!kf.rewritten[e]) continue;
-    for (Index v : kf.graph.edge(e)) {
-      const Index keyframe = kf.poses.pose[kf.nearest[kf.poses.index[v]]];
-      if (kf.graph.vertex_line[keyframe] > kf.graph.edge_line[e]) kf.late[e] = true;
-    }
-  }
-}
-
 // The neighbouring keyframes of the step that odometry edge e takes.
 std::pair<Index, Index> around(const Keyframing& kf, Index e) {
   const auto ends = kf.graph.edge(e);
@@ -198,6 +201,97 @@ std::pair<Index, Index> around(const Keyframing& kf, Index e) {
   while (!is_keyframe(kf, a)) --a;
   while (!is_keyframe(kf, b)) ++b;
   return {a, b};
+}
+
+// The keyframes that edge e, between two poses, comes to join.
+std::pair<Index, Index> joined(const Keyframing& kf, Index e) {
+  const auto ends = kf.graph.edge(e);
+  const auto [a, b] =
+      kf.composed[e] ? around(kf, e) : std::pair{kf.poses.index[ends[0]], kf.poses.index[ends[1]]};
+  return {host_of(kf, a), host_of(kf, b)};
+}
+
+// What edge e, between two poses, then measures.
+struct Moved {
+  Index from, to;  // keyframes, neither of them merged
+  Motion motion;
+};
+Moved moved(const Keyframing& kf, Index e) {
+  const auto ends = kf.graph.edge(e);
+  Index a = kf.poses.index[ends[0]], b = kf.poses.index[ends[1]];
+  std::optional<Motion> z;
+  if (kf.composed[e]) {
+    std::tie(a, b) = around(kf, e);
+    z = travelled(kf, a, b);
+  } else {
+    const Index p = std::exchange(a, kf.nearest[a]), q = std::exchange(b, kf.nearest[b]);
+    z = motion(kf.graph, e);
+    if (p != a) z = compose(travelled(kf, a, p), *z);
+    if (q != b) z = compose(*z, inverse(travelled(kf, b, q)));
+  }
+  if (is_merged(kf, a)) z = compose(kf.from_host.at(a), *z);
+  if (is_merged(kf, b)) z = compose(*z, inverse(kf.from_host.at(b)));
+  return {kf.host[a], kf.host[b], std::move(*z)};
+}
+
+// Merges every keyframe, the fixed ones aside, into the nearest place of those that closures tie it to and that are near
+// enough: in the order of time, so that a host has none itself.
+void merge_revisits(Keyframing& kf, const Revisit& revisit) {
+  std::vector<Index> later(kf.graph.edges(), -1);  // keyframe of every closure
+  for (Index e = 0; e < kf.graph.edges(); ++e) {
+    if (!is_motion(kf.graph.edge_tag(e)) ||
+        graph::edge_role(kf.graph, kf.poses, e) != graph::EdgeRole::loop_closure)
+      continue;
+    const auto [a, b] = joined(kf, e);
+    if (a != b) later[e] = std::max(a, b);
+  }
+  const graph::Lists<> closures = graph::grouped(later, pose_count(kf.poses));
+  for (Index k = 0; k < pose_count(kf.poses); ++k) {
+    if (kf.graph.fixed[kf.poses.pose[k]]) continue;
+    std::optional<Moved> best;  // from its host to k
+    for (const Index e : closures[k]) {
+      Moved z = moved(kf, e);
+      if (z.from == k) z = {z.to, z.from, inverse(z.motion)};
+      const bool near = distance(z.motion) <= revisit.distance && angle(z.motion) <= revisit.angle;
+      if (near && (!best || distance(z.motion) < distance(best->motion))) best = std::move(z);
+    }
+    if (!best) continue;
+    kf.host[k] = best->from;
+    kf.from_host.emplace(k, std::move(best->motion));
+    ++kf.merged;
+  }
+}
+
+// Edges of one type between the same keyframes become one where any of them has moved, in the place of the last line.
+void fuse_parallel(Keyframing& kf) {
+  std::map<std::tuple<Index, Index, graph::TypeIndex>, std::vector<Index>> groups;
+  for (Index e = 0; e < kf.graph.edges(); ++e) {
+    if (kf.removal.edge[e] || !is_motion(kf.graph.edge_tag(e))) continue;
+    const auto [a, b] = joined(kf, e);
+    if (a != b) groups[{std::min(a, b), std::max(a, b), kf.graph.edge_type[e]}].push_back(e);
+  }
+  for (auto& [pair, edges] : groups) {
+    if (edges.size() < 2 || std::ranges::none_of(edges, [&](Index e) { return kf.rewritten[e]; }))
+      continue;
+    const Index carrier = edges.back();
+    require_fusible(kf.graph, carrier, "between two keyframes");
+    for (const Index e : edges) {
+      kf.removal.edge[e] = e != carrier;
+      kf.rewritten[e] = e == carrier;
+    }
+    kf.fused.emplace(carrier, std::move(edges));
+  }
+}
+
+// A line that names a vertex before the file defines it would not be read by g2o.
+void find_late_lines(Keyframing& kf) {
+  if (kf.graph.edges_only) return;
+  for (Index e = 0; e < kf.graph.edges(); ++e) {
+    if (!kf.rewritten[e]) continue;
+    const auto [a, b] = joined(kf, e);
+    for (const Index k : {a, b})
+      kf.late[e] = kf.late[e] || kf.graph.vertex_line[kf.poses.pose[k]] > kf.graph.edge_line[e];
+  }
 }
 
 }  // namespace
@@ -212,6 +306,18 @@ graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses)
   return graph::grouped(step, pose_count(poses));
 }
 
+Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
+                   const graph::Lists<>& odometry, Index k) {
+  require_composable(graph, odometry, k);
+  std::vector<Motion> motions;
+  for (Index e : odometry[k]) {
+    const Motion forward_or_back = motion(graph, e).value();
+    const bool back = graph.edge(e)[0] == poses.pose[k];
+    motions.push_back(back ? inverse(forward_or_back) : forward_or_back);
+  }
+  return fuse_from(graph, poses, k - 1, motions);
+}
+
 std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& poses,
                                    const graph::Lists<>& odometry, const KeyframeRule& rule) {
   const Index n = pose_count(poses);
@@ -221,7 +327,6 @@ std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& p
     const bool start = odometry[k].empty();
     if (start) first = k;
     if (!start && rule.rate == 0) {
-      require_composable(graph, odometry, k);
       const Motion step = step_motion(graph, poses, odometry, k);
       travelled += distance(step);
       turned += angle(step);
@@ -237,24 +342,34 @@ std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& p
 
 Keyframing keyframing(const Graph& graph, const graph::PoseIndex& poses,
                       const graph::Lists<>& odometry, const std::vector<bool>& keyframe,
-                      bool move_loops) {
+                      const KeyframingOptions& options) {
   const std::vector<bool> no_edge(graph.edges(), false);
+  std::vector<Index> host(pose_count(poses));
+  std::iota(host.begin(), host.end(), 0);
   Keyframing kf{graph,
                 poses,
                 odometry,
                 nearest_keyframes(odometry, keyframe),
+                std::move(host),
+                no_edge,
                 no_edge,
                 no_edge,
                 nothing_removed(graph)};
+  if (options.revisit) {
+    require_ways(kf);
+    set_milestones(kf);
+    merge_revisits(kf, *options.revisit);
+  }
   for (Index k = 0; k < pose_count(poses); ++k) {
-    kf.removal.vertex[poses.pose[k]] = !keyframe[k];
+    kf.removal.vertex[poses.pose[k]] = !keyframe[k] || is_merged(kf, k);
   }
   settle_odometry(kf);
-  settle_edges(kf, move_loops);
-  if (moves_a_loop(kf)) {
+  settle_edges(kf, options.move_loops);
+  if (!options.revisit && moves_a_loop(kf)) {
     require_ways(kf);
     set_milestones(kf);
   }
+  if (options.fuse) fuse_parallel(kf);
   find_late_lines(kf);
   return kf;
 }
@@ -277,18 +392,17 @@ Motion travelled(const Keyframing& kf, Index from, Index to) {
 }
 
 std::string rewritten_line(const Keyframing& kf, Index e) {
-  const Graph& graph = kf.graph;
-  const auto id = [&](Index k) { return graph.id[kf.poses.pose[k]]; };
-  if (graph::edge_role(graph, kf.poses, e) == graph::EdgeRole::odometry) {
-    const auto [a, b] = around(kf, e);
-    return edge_text(travelled(kf, a, b), id(a), id(b));
+  Moved line = moved(kf, e);
+  if (const auto fused = kf.fused.find(e); fused != kf.fused.end()) {
+    std::vector<Motion> motions;
+    for (const Index i : fused->second) {
+      Moved one = moved(kf, i);
+      motions.push_back(one.from == line.from ? std::move(one.motion) : inverse(one.motion));
+    }
+    line.motion = fuse_from(kf.graph, kf.poses, line.from, motions);
   }
-  const Index p = kf.poses.index[graph.edge(e)[0]], q = kf.poses.index[graph.edge(e)[1]];
-  const Index a = kf.nearest[p], b = kf.nearest[q];
-  Motion z = motion(graph, e).value();
-  if (p != a) z = compose(travelled(kf, a, p), z);
-  if (q != b) z = compose(z, inverse(travelled(kf, b, q)));
-  return edge_text(z, id(a), id(b));
+  const auto id = [&](Index k) { return kf.graph.id[kf.poses.pose[k]]; };
+  return edge_text(line.motion, id(line.from), id(line.to));
 }
 
 }  // namespace sg::prune

@@ -8,10 +8,15 @@
 //                 distance, counted in poses), by way of the odometry in between, or go. One whose
 //                 ends fall together goes.
 //   all other edges go: observations, priors, and whatever else the pose took part in.
+// Where revisits are merged, a keyframe that a closure ties to an earlier one near by gives way to it: it is dropped, and
+// what is measured from it is measured from its host, composed with the closure. The graph then grows with the space
+// that is explored and not with time: the reduced pose graph of Johannsson, Kaess, Fallon, Leonard, Temporally scalable
+// visual SLAM using a reduced pose graph (2013).
 // Composition is exact to first order edge by edge. Edges that were independent become correlated
-// where they share odometry (two moved loop closures, say); g2o's format cannot tell.
+// where they share odometry (two moved loop closures, say) or a closure; g2o's format cannot tell.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -31,8 +36,25 @@ struct KeyframeRule {
   double angle = 0;     // turned since, in radians, summed step by step; 0: no matter
 };
 
+// What is near enough to be the same place.
+struct Revisit {
+  double distance;  // metres
+  double angle;     // radians
+};
+
+struct KeyframingOptions {
+  bool move_loops = true;          // else they go
+  std::optional<Revisit> revisit;  // merge such keyframes into earlier ones
+  bool fuse = false;  // edges that come to join the same pair become one, their information added
+};
+
 // The odometry edges of every step: step k leads from pose k - 1 to pose k.
 graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses);
+
+// The motion of step k, from pose k - 1 to pose k; several edges are fused. Throws an input Error where they are of no
+// composable type.
+Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
+                   const graph::Lists<>& odometry, Index k);
 
 // Throws an input Error where distance or angle cannot be measured, for a step whose edges are of
 // no composable type.
@@ -44,26 +66,33 @@ struct Keyframing {
   const Graph& graph;
   const graph::PoseIndex& poses;
   const graph::Lists<>& odometry;
-  std::vector<Index> nearest;   // nearest keyframe of every pose, by pose index
+  std::vector<Index> nearest;  // nearest keyframe of every pose, by pose index
+  std::vector<Index>
+      host;  // by pose index: the earlier keyframe that one is merged into, else itself
   std::vector<bool> rewritten;  // m: edges with a new line
-  std::vector<bool> late;       // m: edges whose new line would stand before the VERTEX of its ends
+  std::vector<bool> composed;  // m: those of them that stand for all odometry between two keyframes
+  std::vector<bool> late;      // m: edges whose new line would stand before the VERTEX of its ends
   Removal removal;
   Index dropped_priors = 0;                           // unary edges of dropped poses
   Index collapsed_loops = 0;                          // loop closures whose ends fell together
+  Index merged = 0;                                   // keyframes with a host
   std::unordered_map<Index, Motion> milestones = {};  // nearest keyframe -> pose, on long ways
+  std::unordered_map<Index, Motion> from_host = {};   // host -> keyframe
+  std::unordered_map<Index, std::vector<Index>> fused =
+      {};  // edge -> all that it stands for, itself included
 };
 
 // Decides the fate of every edge and checks that what has to be composed can be: throws an input
 // Error that names the first edge of which this does not hold. O(edges).
 Keyframing keyframing(const Graph& graph, const graph::PoseIndex& poses,
                       const graph::Lists<>& odometry, const std::vector<bool>& keyframe,
-                      bool move_loops);
+                      const KeyframingOptions& options);
 Keyframing keyframing(const Graph&&, const graph::PoseIndex&, const graph::Lists<>&,
-                      const std::vector<bool>&, bool) = delete;
+                      const std::vector<bool>&, const KeyframingOptions&) = delete;
 Keyframing keyframing(const Graph&, const graph::PoseIndex&&, const graph::Lists<>&,
-                      const std::vector<bool>&, bool) = delete;
+                      const std::vector<bool>&, const KeyframingOptions&) = delete;
 Keyframing keyframing(const Graph&, const graph::PoseIndex&, const graph::Lists<>&&,
-                      const std::vector<bool>&, bool) = delete;
+                      const std::vector<bool>&, const KeyframingOptions&) = delete;
 
 // The motion from pose `from` to another pose `to` of one segment, by pose index, composed from
 // odometry.

@@ -175,6 +175,13 @@ Motion fuse(const std::vector<Motion>& motions, const SE3& first_pose) {
   return fuse_world(motions, first_pose);
 }
 
+SE3 mean(const Motion& motion) {
+  if (const auto* a = std::get_if<geometry::UncertainSE2>(&motion))
+    return geometry::in_space(a->mean);
+  if (const auto* a = std::get_if<geometry::UncertainSE3>(&motion)) return a->mean;
+  return std::get<ExpmapMotion>(motion).mean;
+}
+
 double distance(const Motion& motion) {
   if (const auto* a = std::get_if<geometry::UncertainSE2>(&motion))
     return std::hypot(a->mean.x, a->mean.y);

@@ -44,6 +44,9 @@ Motion inverse(const Motion& motion);
 // pose's estimate.
 Motion fuse(const std::vector<Motion>& motions, const SE3& first_pose);
 
+// In space, those of the plane in z = 0.
+SE3 mean(const Motion& motion);
+
 // How far a motion goes (in the file's unit of length) and turns (radians, 0 .. pi).
 double distance(const Motion& motion);
 double angle(const Motion& motion);

@@ -11,6 +11,7 @@
 #include "lib/elim/bayes_tree.h"
 #include "lib/elim/counts.h"
 #include "lib/elim/node_elimination.h"
+#include "lib/elim/row_price.h"
 #include "lib/elim/score.h"
 #include "lib/order/order.h"
 #include "tests/unit/common.h"
@@ -439,4 +440,28 @@ TEST_CASE("public graphs: nnz and flops are CHOLMOD's under COLAMD", "[elim][pub
     const graph::GraphPattern variables = graph::graph_pattern(formats::read_graph(file));
     require_as_cholmod(variables.pattern, order::elimination_order("colamd", variables.pattern));
   }
+}
+
+TEST_CASE("a row's price is what EC loses without it", "[elim]") {
+  int free = 0, dear = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    Random random(trial);
+    const graph::Pattern pattern = random_pattern(random);
+    const graph::Order order = shuffled(random, pattern.variables());
+    const elim::Wide ec = elim::elimination_complexity(pattern, order);
+    const std::vector<elim::Wide> prices = elim::row_prices(pattern, order);
+    REQUIRE(prices.size() == static_cast<std::size_t>(pattern.rows.size()));
+    int wrong = 0;
+    for (Index r = 0; r < pattern.rows.size(); ++r) {
+      auto rows = rows_of(pattern);
+      rows.erase(rows.begin() + r);
+      const graph::Pattern without = make_pattern(pattern.dim, rows);
+      wrong += prices[r] != ec - elim::elimination_complexity(without, order);
+      ++(prices[r] == 0 ? free : dear);
+    }
+    INFO("trial " << trial);
+    CHECK(wrong == 0);
+  }
+  CHECK(free > 100);
+  CHECK(dear > 100);
 }

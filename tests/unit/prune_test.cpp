@@ -9,7 +9,12 @@
 
 #include "formats/formats.h"
 #include "formats/write.h"
+#include "lib/elim/score.h"
+#include "lib/graph/components.h"
+#include "lib/graph/pattern.h"
+#include "lib/order/order.h"
 #include "lib/prune/candidates.h"
+#include "lib/prune/covisible.h"
 #include "lib/prune/decimate.h"
 #include "lib/prune/keyframes.h"
 #include "lib/prune/sample.h"
@@ -424,19 +429,107 @@ TEST_CASE("keyframes by the distance and the angle travelled", "[prune]") {
 
 TEST_CASE("from exact measurements keyframing makes exact ones", "[prune]") {
   Random random(5);
-  for (int trial = 0; trial < 90; ++trial) {
+  Index merged = 0;
+  std::size_t fused = 0;
+  for (int trial = 0; trial < 180; ++trial) {
     const World world = random_world(random, kinds[trial % 3], draw(random, 2, 25), 0);
-    const Pruned p = analyzed(world.vertices + world.edges, {draw(random, 2, 6), 0, 0});
-    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    const Pruned p = analyzed(world.vertices + world.edges, {draw(random, 1, 6), 0, 0});
+    prune::KeyframingOptions options;
+    options.fuse = draw(random, 0, 1) == 1;
+    if (draw(random, 0, 1) == 1) options.revisit = {1, 1};
+    const prune::Keyframing kf =
+        prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, options);
+    merged += kf.merged;
+    fused += kf.fused.size();
     const Graph pruned = graph_of(written(p.graph, kf));
-    CHECK(pruned.vertices() == std::count(p.keyframe.begin(), p.keyframe.end(), true));
+    CHECK(pruned.vertices() == std::count(p.keyframe.begin(), p.keyframe.end(), true) - kf.merged);
     for (Index e = 0; e < pruned.edges(); ++e) {
       const auto ends = pruned.edge(e);
       const SE3& a = world.pose[pruned.id[ends[0]] / 2];
       const SE3& b = world.pose[pruned.id[ends[1]] / 2];
       CHECK(residual(prune::motion(pruned, e).value(), a, b).norm() < 1e-9);
+      CHECK(ends[0] != ends[1]);
     }
+    // What was connected stays so.
+    CHECK(graph::components(pruned).count == graph::components(p.graph).count);
   }
+  CHECK(merged > 50);
+  CHECK(fused > 50);
+}
+
+TEST_CASE("a fused edge weighs as much as those that it stands for, at the same cost", "[prune]") {
+  Random random(12);
+  int fused = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const Kind kind = kinds[trial % 3];
+    World world = random_world(random, kind, 12, 0);
+    for (int k = 0; k < 12; ++k)
+      add_motion(random, world, draw(random, 0, 4), draw(random, 7, 11), 0);
+    const Pruned p = analyzed(world.vertices + world.edges, {3, 0, 0});
+    MatrixXd hessian[2];
+    elim::Wide ec[2];
+    Index edges[2];
+    for (const bool fuse : {false, true}) {
+      prune::KeyframingOptions options;
+      options.fuse = fuse;
+      const Graph pruned = graph_of(
+          written(p.graph, prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, options)));
+      std::vector<Factor> factors;
+      std::vector<SE3> poses;
+      for (Index v = 0; v < pruned.vertices(); ++v) poses.push_back(world.pose[pruned.id[v] / 2]);
+      for (Index e = 0; e < pruned.edges(); ++e)
+        factors.push_back({pruned.edge(e)[0], pruned.edge(e)[1], prune::motion(pruned, e).value()});
+      hessian[fuse] = linearize(kind, factors, poses).first;
+      const graph::Pattern pattern = graph::graph_pattern(pruned).pattern;
+      ec[fuse] = elim::elimination_complexity(pattern, order::elimination_order("id", pattern));
+      edges[fuse] = pruned.edges();
+    }
+    CHECK((hessian[1] - hessian[0]).norm() < 1e-6 * hessian[0].norm());
+    CHECK(ec[0] == ec[1]);
+    fused += edges[0] - edges[1];
+  }
+  CHECK(fused > 100);
+}
+
+TEST_CASE("keyframes by covisibility, recounted from scratch", "[prune]") {
+  int dropped = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Random random(trial);
+    const Graph graph = graph_of(random_landmark_graph(random));
+    const graph::PoseIndex poses = graph::pose_index(graph);
+    const graph::Lists<> odometry = prune::odometry_steps(graph, poses);
+    const prune::CovisibleRule rule{draw(random, 1, 4) / 4.0, draw(random, 1, 3)};
+    const auto n = static_cast<Index>(poses.pose.size());
+    std::vector<std::set<Index>> sees(n);
+    for (Index e = 0; e < graph.edges(); ++e) {
+      if (graph::edge_role(graph, poses, e) != graph::EdgeRole::observation) continue;
+      const auto ends = graph.edge(e);
+      sees[poses.index[ends[0]]].insert(ends.begin() + 1, ends.end());
+    }
+    std::set<Index> keyframes;
+    for (Index k = 0; k < n; ++k) {
+      keyframes.insert(k);
+      for (const Index j : std::set<Index>(keyframes)) {
+        const auto also = [&](Index other) {
+          return [&, other](Index l) { return sees[other].contains(l); };
+        };
+        if (j == k || odometry[j].empty() || graph.fixed[poses.pose[j]] ||
+            std::ranges::none_of(sees[j], also(k)))
+          continue;
+        int known = 0;
+        for (const Index l : sees[j]) {
+          known += std::ranges::count_if(keyframes, [&](Index other) {
+                     return other != j && sees[other].contains(l);
+                   }) >= rule.others;
+        }
+        if (known >= rule.part * static_cast<double>(sees[j].size())) keyframes.erase(j);
+      }
+    }
+    const auto chosen = prune::covisible_keyframes(graph, poses, odometry, rule);
+    for (Index k = 0; k < n; ++k) CHECK(chosen[k] == keyframes.contains(k));
+    dropped += n - static_cast<int>(keyframes.size());
+  }
+  CHECK(dropped > 100);
 }
 
 TEST_CASE("a composed edge says what the odometry said: mean and information", "[prune]") {
@@ -445,7 +538,7 @@ TEST_CASE("a composed edge says what the odometry said: mean and information", "
   for (int trial = 0; trial < 60; ++trial) {
     const World world = random_world(random, kinds[trial % 3], draw(random, 4, 12), 0.01);
     const Pruned p = analyzed(world.vertices + world.edges, {draw(random, 2, 5), 0, 0});
-    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, {});
     for (Index e = 0; e < p.graph.edges(); ++e) {
       if (!kf.rewritten[e]) continue;
       const auto ends = p.graph.edge(e);
@@ -484,7 +577,7 @@ TEST_CASE("without noise in parallel odometry the composed information is exact"
     const Kind kind = kinds[trial % 3];
     const World world = random_world(random, kind, 8, 0);
     const Pruned p = analyzed(world.vertices + world.edges, {4, 0, 0});
-    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, {});
     for (Index e = 0; e < p.graph.edges(); ++e) {
       if (!kf.rewritten[e] || graph::edge_role(p.graph, p.poses, e) != graph::EdgeRole::odometry)
         continue;
@@ -514,7 +607,7 @@ TEST_CASE("long ways to keyframes are composed from milestones", "[prune]") {
   for (int k = 0; k < 50; ++k)
     add_motion(random, world, draw(random, 0, 200), draw(random, 300, 499), 0);
   const Pruned p = analyzed(world.edges, {300, 0, 0});
-  prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+  prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, {});
   CHECK(kf.milestones.size() >= 4);
   prune::Keyframing plain = kf;
   plain.milestones.clear();
@@ -543,8 +636,7 @@ TEST_CASE("pruning and reordering commute", "[prune]") {
     std::multiset<std::string> results[2];
     for (int k : {0, 1}) {
       const Pruned p = analyzed((k ? shuffled : world.vertices) + world.edges, {3, 0, 0});
-      const prune::Keyframing kf =
-          prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+      const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, {});
       std::istringstream out(written(p.graph, kf));
       for (std::string line; std::getline(out, line);) results[k].insert(line);
     }
@@ -571,7 +663,7 @@ TEST_CASE("a moved line that would name a vertex too early goes to the end", "[p
     if (k == 7) text += "EDGE_SE2 0 7 7 0 0" + information;
   }
   const Pruned p = analyzed(text, {4, 0, 0});
-  const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+  const prune::Keyframing kf = prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, {});
   std::istringstream lines(written(p.graph, kf));
   std::vector<std::string> names;
   for (std::string line; std::getline(lines, line);) {
@@ -593,7 +685,7 @@ TEST_CASE("what keyframing cannot compose it names", "[prune]") {
                                 "EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n",
                             {2, 0, 0});
   try {
-    prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, true);
+    prune::keyframing(p.graph, p.poses, p.odometry, p.keyframe, {});
     FAIL("composed EDGE_SE2_OFFSET");
   } catch (const text::Error& error) {
     CHECK(error.fault == text::Fault::input);

@@ -11,6 +11,7 @@
 #include "lib/graph/summary.h"
 #include "lib/order/order.h"
 #include "lib/score/covariance.h"
+#include "lib/score/fill.h"
 #include "lib/score/sigma.h"
 #include "lib/score/trajectory.h"
 #include "lib/trees/connectivity.h"
@@ -290,6 +291,48 @@ TEST_CASE("covariances are blocks of the dense inverse, of every type", "[score]
     }
   }
   CHECK(checked > 60);
+}
+
+TEST_CASE("dropped poses stand between kept ones, by odometry", "[score]") {
+  Random random(8);
+  const auto motion = [&](double size) {
+    return geometry::exp(
+        Vector6d(Vector6d::NullaryExpr([&] { return uniform(random, -size, size); })));
+  };
+  for (int trial = 0; trial < 50; ++trial) {
+    const int n = draw(random, 1, 30);
+    score::Trajectory all, kept;
+    score::Odometry odometry;
+    std::vector<bool> known(n);  // that a kept pose of its segment leads to it
+    for (int k = 0; k < n; ++k) {
+      const bool starts = k == 0 || draw(random, 0, 9) == 0;
+      const SE3 step = motion(1);
+      all.id.push_back(3 * k);
+      all.pose.push_back(k == 0 ? step : compose(all.pose.back(), step));
+      odometry.id.push_back(3 * k);
+      odometry.step.push_back(starts ? std::nullopt : std::optional(step));
+      if (draw(random, 0, 3) > 0) continue;
+      kept.id.push_back(3 * k);
+      kept.pose.push_back(all.pose.back());
+      known[k] = true;
+    }
+    for (int k = 1; k < n; ++k) known[k] = known[k] || (odometry.step[k] && known[k - 1]);
+    for (int k = n - 1; k > 0; --k) known[k - 1] = known[k - 1] || (odometry.step[k] && known[k]);
+    kept.id.push_back(3 * n + 1);  // that the odometry does not know
+    kept.pose.push_back(motion(1));
+    const score::Trajectory filled = score::filled(kept, odometry);
+    std::vector<Id> expected;
+    double worst = 0;
+    for (int k = 0; k < n; ++k) {
+      if (!known[k]) continue;
+      REQUIRE(expected.size() < filled.pose.size());
+      worst = std::max(worst, log(between(all.pose[k], filled.pose[expected.size()])).norm());
+      expected.push_back(3 * k);
+    }
+    expected.push_back(3 * n + 1);
+    CHECK(filled.id == expected);
+    CHECK(worst < 1e-9);
+  }
 }
 
 TEST_CASE("a position's covariance is that of where its file's line puts it", "[score]") {

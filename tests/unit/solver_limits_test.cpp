@@ -170,7 +170,7 @@ concept can_make_replay = requires(P&& p) {
 };
 template <class G, class P, class O>
 concept can_keyframe = requires(G&& g, P&& p, O&& o) {
-  sg::prune::keyframing(std::forward<G>(g), std::forward<P>(p), std::forward<O>(o), {}, true);
+  sg::prune::keyframing(std::forward<G>(g), std::forward<P>(p), std::forward<O>(o), {}, {});
 };
 
 static_assert(can_make_problem<const sg::Graph&> && !can_make_problem<sg::Graph>);

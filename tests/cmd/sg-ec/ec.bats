@@ -72,6 +72,20 @@ columns=order,vertices,edges,dim,ec,rose,flops,nnz,fill,max_clique,height,clique
   sg-ec --per-vertex --no-header -f id,role walk.g2o | grep -qx "$(printf '100\tlandmark')"
 }
 
+@test "--per-edge: a price is what a new scoring saves, and nothing where an edge is free" {
+  cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .
+  edges=$(grep -n ^EDGE walk.g2o | cut -d: -f1)
+  ec=$(sg-ec -m id --no-header -f ec walk.g2o)
+  for line in $edges; do echo $((ec - $(sed "${line}d" walk.g2o | sg-ec -m id --no-header -f ec))); done >expected
+  sg-ec --per-edge -m id --no-header -f price walk.g2o >prices
+  [ "$(cat prices)" = "$(cat expected)" ]
+  [ "$(grep -c '^0$' prices)" = "$(sg-ec --per-edge -m id --no-header -f free walk.g2o | grep -c yes)" ]
+  grep -qx 0 prices
+  [ "$(sg-ec --per-edge -m id --json -f ids,role walk.g2o | head -2 | tail -1)" = '{"ids": [0, 100], "role": "observation"}' ]
+  awk -v ec="$ec" 'NR == FNR {price[FNR] = $1; next} {d = $1 - price[FNR] / ec; if (d * d > 1e-20) wrong = 1} END {exit wrong}' prices \
+    <(sg-ec --per-edge -m id --no-header -f share walk.g2o)
+}
+
 @test "-o, --json, --no-header" {
   sg-ec -f ec --no-header -o "$BATS_TEST_TMPDIR/out" figure1.g2o
   [ "$(cat "$BATS_TEST_TMPDIR/out")" = 864 ]
@@ -85,6 +99,7 @@ columns=order,vertices,edges,dim,ec,rose,flops,nnz,fill,max_clique,height,clique
   run -2 sg-ec --trace --every 0 figure1.g2o
   run -2 sg-ec --trace --min-obs 0 figure1.g2o
   run -2 sg-ec --trace --per-vertex figure1.g2o
+  run -2 sg-ec --per-edge --per-vertex figure1.g2o
 }
 
 @test "a wrong file among several: status 1 and no table in the output file" {

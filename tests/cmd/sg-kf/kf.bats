@@ -72,9 +72,89 @@ setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 @test "wrong calls" {
   fails 2 "sg-kf: -r 0: must be 1 or more (see sg-kf --help)" sg-kf -r 0 walk.g2o
   fails 2 "sg-kf: -r -1: must be 1 or more (see sg-kf --help)" sg-kf -r -1 walk.g2o
-  fails 2 "sg-kf: how many keyframes? Give -r, or --dist and --angle or one of them (see sg-kf --help)" sg-kf walk.g2o
+  fails 2 "sg-kf: how many keyframes? Give -r, --covisible or --revisit, or --dist and --angle or one of them (see sg-kf --help)" sg-kf walk.g2o
   fails 2 "sg-kf: how many keyframes? -r keeps every R-th pose, --dist one every D metres: give one of them (see sg-kf --help)" \
     sg-kf -r 2 --dist 3 walk.g2o
+  fails 2 "sg-kf: how many keyframes? --angle one every A degrees, --covisible those that see the most: give one of them (see sg-kf --help)" \
+    sg-kf --angle 3 --covisible 0.9,3 walk.g2o
+  fails 2 "sg-kf: --loops drop: --revisit follows loop closures (see sg-kf --help)" sg-kf -r 2 --revisit 1,1 --loops drop walk.g2o
+  for wrong in 0.9 0,3 1.1,3 0.9,0 0.9,1.5 x,3 nan,3 0.9,3,3; do
+    fails 2 "sg-kf: --covisible wants PART,N, a part in (0, 1] and a count of 1 or more, not '$wrong' (see sg-kf --help)" \
+      sg-kf --covisible "$wrong" walk.g2o
+  done
+  for wrong in 1 1, -1,3 1,-3 inf,3 1,2,3; do
+    fails 2 "sg-kf: --revisit wants DIST,ANGLE, metres and degrees of 0 or more, not '$wrong' (see sg-kf --help)" \
+      sg-kf "--revisit=$wrong" walk.g2o
+  done
+}
+
+# Twice round a square of a metre: 4 is 0 again but for a tenth, and 5 is 1; each step turns by 90 degrees.
+square() {
+  for k in 0 1 2 3 4; do echo "EDGE_SE2 $k $((k + 1)) 1 0 1.5707963267948966 4 0 0 4 0 4"; done
+  echo 'EDGE_SE2 0 4 0.1 0 0 4 0 0 4 0 4'
+  echo 'EDGE_SE2 5 1 0.3 0 0 4 0 0 4 0 4'
+  echo 'EDGE_SE2 2 5 0 1 -1.5707963267948966 4 0 0 4 0 4'
+}
+joins() { awk '/^EDGE/ {printf "%s-%s %.6g %.6g,", $2, $3, $4, $5}' "$@"; }
+
+@test "poses that closures tie to earlier ones are merged into them, within a distance and an angle" {
+  square >square.g2o
+  # 3-0: a step, and back from 4 to 0, which turns by nothing. 4-5: to 4, and a step. 5-1 and 2-5 as they are.
+  [ "$(sg-kf --revisit 0.2,1 square.g2o | joins)" = "0-1 1 0,1-2 1 0,2-3 1 0,3-0 1 -0.1,0-5 1.1 0,5-1 0.3 0,2-5 0 1," ]
+  # 5 is merged, too: 0-1 once more, by way of 4 and 5; 2-5 becomes 2-1
+  [[ "$(sg-kf --revisit 0.5,1 square.g2o | joins)" == "0-1 1 0,1-2 1 0,2-3 1 0,3-0 1 -0.1,0-1 1.1 0.3,2-1 "* ]]
+  [ "$(sg-kf --revisit 0.05,1 square.g2o | joins)" = "$(joins square.g2o)" ]
+  sg-kf -v --revisit 0.5,1 square.g2o 2>&1 >/dev/null | grep -q "merged 2 keyframes into earlier ones that they revisit"
+  { cat square.g2o; echo 'FIX 4'; } | sg-kf --revisit 0.5,1 | joins | grep -q 3-4
+}
+
+@test "edges that come to join the same keyframes are fused, at the same cost, by their information" {
+  square >square.g2o
+  sg-kf --revisit 0.5,1 --fuse square.g2o >fused.g2o
+  [ "$(awk '/^EDGE/ {printf "%s-%s,", $2, $3}' fused.g2o)" = "2-3,3-0,0-1,2-1," ]
+  for graph in fused plain; do
+    [ $graph = fused ] || sg-kf --revisit 0.5,1 square.g2o >plain.g2o
+    sg-solve -q $graph.g2o | grep ^VERTEX >$graph.solved
+    sg-ec -m id --no-header -f ec $graph.g2o >$graph.ec
+  done
+  cmp fused.ec plain.ec
+  [ "$(wc -l <fused.solved)" -eq 4 ]
+  # measurements that disagree by decimetres are the same to first order
+  paste -d' ' fused.solved plain.solved | awk '{for (i = 3; i <= 5; ++i) {d = $i - $(i + 5); if (d * d > 0.01) wrong = 1}} END {exit wrong}'
+  # what has not moved stays
+  { cat walk.g2o; grep 'EDGE_SE2 4 0' walk.g2o; } >twice.g2o
+  sg-kf -r 1 --fuse --no-trace-comment twice.g2o | cmp - twice.g2o
+  # exactly: two closures that agree are one of twice the information
+  sg-kf -r 2 --fuse twice.g2o >once.g2o
+  [ "$(grep -c 'EDGE_SE2 4 0' once.g2o)" -eq 2 ]
+}
+
+@test "closures that agree are fused into their sum, and chi-square stays" {
+  { cat walk.g2o; for k in 3 4; do echo "EDGE_SE2 0 $k $k.2 0.3 0.1 40 0 0 40 0 90"; done; } >loops.g2o
+  sg-kf -r 4 loops.g2o >plain.g2o
+  sg-kf -r 4 --fuse loops.g2o >fused.g2o
+  [ "$(grep -c '^EDGE_SE2 ' plain.g2o)" -eq 4 ]
+  [ "$(grep -c '^EDGE_SE2 ' fused.g2o)" -eq 1 ]
+  near "$(sg-score --no-header -f dopt fused.g2o)" "$(sg-score --no-header -f dopt plain.g2o)" 1e-2
+  printf '%s\n' "VERTEX_SE2 0 0 0 0" "VERTEX_SE2 1 1 0 0" "VERTEX_SE2 2 2.5 0 0.1" "VERTEX_SE2 3 3 0 0" >two.g2o
+  printf 'EDGE_SE2 %s 0 0 100 0 0 100 0 100\n' "0 1 1" "1 2 1" "2 3 1" "0 3 3" >>two.g2o
+  printf 'EDGE_SE2 0 2 2 0 0 9 0 0 %s 0 7\n' 9 4 >>two.g2o  # both between keyframes; the third moves there
+  sg-kf -r 2 two.g2o >plain.g2o
+  sg-kf -r 2 --fuse two.g2o >fused.g2o
+  [ "$(grep -c '^EDGE' plain.g2o)" -eq 4 ]
+  [ "$(grep -c '^EDGE' fused.g2o)" -eq 1 ]
+  near "$(sg-solve --chi2 fused.g2o)" "$(sg-solve --chi2 plain.g2o)"
+}
+
+@test "keyframes by covisibility" {
+  # everybody sees the same three landmarks: of poses 1 to 4, those go that three others stand for
+  { for k in 0 1 2 3; do echo "EDGE_SE2 $k $((k + 1)) 1 0 0 1 0 0 1 0 1"; done
+    for k in 0 1 2 3 4; do for l in 10 11 12; do echo "EDGE_SE2_XY $k $l 1 0 1 0 1"; done; done; } >see.g2o
+  poses() { sg-kf "$@" see.g2o | awk '/EDGE_SE2_XY/ {print $2}' | uniq | paste -sd' '; }
+  [ "$(poses --covisible 0.9,3)" = "0 3 4" ]
+  [ "$(poses --covisible 0.9,1)" = "0 4" ]
+  [ "$(poses --covisible 1,4)" = "0 2 3 4" ]
+  sg-kf --covisible 0.9,5 --no-trace-comment see.g2o 2>/dev/null | cmp - see.g2o
 }
 
 @test "the output file appears whole or not at all" {

@@ -32,6 +32,8 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   dots | tail -n 1 | grep -q 'fill:rgb(50%,0%,15%)'  # dark red and on top: the costliest
   [ "$(dots | grep -c 'fill:rgb(50%,0%,15%)')" -eq 1 ]
   [ "$(shapes cost.svg "$path")" -eq 0 ]
+  # Without 1-2, eliminating 2 costs 3 * 6^2 and 1 its 3 * 3^2, of 3 * (9^2 + 6^2 + 3^2); without 2-3 the same
+  [ "$(grep 'fill:none.*stroke:rgb(50%,0%,15%)' cost.svg | grep -c 'stroke-width:1.2;')" -eq 2 ]
   sg-order --apply order in.g2o | sg-plot map >map.svg
   [ "$(shapes map.svg "$path")" -eq 2 ]
   fails 2 "sg-plot: --cost has no effect on a tree, only on a map (see sg-plot --help)" sg-plot tree --cost in.g2o

@@ -68,6 +68,22 @@ edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; do
     sg-score --per-pose -m id,wmf walk.g2o
 }
 
+@test "poses that were dropped are placed between keyframes" {
+  # the last of five poses is off by 0.4: those between by 0.1, 0.2, 0.3
+  sg-kf -r 4 walk.g2o | sed 's/^VERTEX_SE2 4 4 0 0/VERTEX_SE2 4 4.4 0 0/' >two.g2o
+  truth() { score --align none --reference walk.g2o "$@"; }
+  [ "$(truth -f matched two.g2o)" = 2 ]
+  [ "$(truth -f matched --fill walk.g2o two.g2o)" = 5 ]
+  near "$(truth -f ate_rmse two.g2o)" 0.28284271247461903                 # sqrt(0.16/2)
+  near "$(truth -f ate_rmse --fill walk.g2o two.g2o)" 0.24494897427831780  # sqrt(0.30/5)
+  near "$(truth -f rpe_rmse --fill walk.g2o two.g2o)" 0.1
+  # behind the last of them odometry leads on
+  sg-cut --poses 4 walk.g2o >four.g2o
+  near "$(truth -f ate_rmse --fill walk.g2o four.g2o)" 0
+  [ "$(truth -f matched --fill walk.g2o four.g2o)" = 5 ]
+  fails 2 "sg-score: --fill has no effect without --reference (see sg-score --help)" sg-score --fill walk.g2o two.g2o
+}
+
 @test "trajectory errors by hand, against a graph and a TUM file" {
   # the walk with pose 4 off by (0, 3): errors 0 0 0 0 3, and steps 0 0 0 3
   sed 's/^VERTEX_SE2 4 4 0 0/VERTEX_SE2 4 4 3 0/' walk.g2o >off.g2o
