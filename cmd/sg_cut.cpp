@@ -23,16 +23,6 @@ struct Options {
   std::vector<std::string> tags, without;
 };
 
-graph::Part ranges_of_ids(const Graph& graph, const std::vector<std::string>& ids) {
-  const auto ranges = cmd::parse_ranges("--ids", ids);
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    const auto there = std::ranges::lower_bound(graph.id, ranges[k].first);
-    if (there == graph.id.end() || *there > ranges[k].second)
-      throw text::usage_error("--ids " + ids[k] + ": the graph has no such vertex");
-  }
-  return graph::of_ids(graph, ranges);
-}
-
 graph::Part range_of_poses(const Graph& graph, const std::string& text) {
   const auto [first, last] = cmd::parse_range("--range", text);
   const graph::PoseIndex poses = graph::pose_index(graph);
@@ -86,7 +76,7 @@ graph::Part part(const Graph& graph, const Options& options) {
   if (!options.tags.empty()) return graph::of_types(graph, types_of(graph, "--tags", options.tags));
   if (!options.without.empty())
     return graph::without_types(graph, types_of(graph, "--without", options.without));
-  return ranges_of_ids(graph, options.ids);
+  return graph::of_ids(graph, cmd::ranges_of_vertices(graph, "--ids", options.ids));
 }
 
 void check_call(const cmd::Command& command, const Options& options) {

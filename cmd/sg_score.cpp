@@ -12,6 +12,7 @@
 #include "lib/geometry/numbers.h"
 #include "lib/graph/summary.h"
 #include "lib/prune/keyframes.h"
+#include "lib/score/divergence.h"
 #include "lib/score/fill.h"
 #include "lib/score/sigma.h"
 #include "lib/score/trajectory.h"
@@ -33,10 +34,16 @@ struct Options {
   bool per_pose = false;
 };
 
+// What graphs are compared with.
+struct Reference {
+  Graph graph;
+  score::Trajectory trajectory = score::trajectory(graph);
+};
+
 // What a graph's rows share, whatever the ordering.
 struct Subject {
   const Options& options;
-  const std::optional<score::Trajectory>& reference;
+  const std::optional<Reference>& reference;
   const std::optional<score::Odometry>& odometry;  // to place dropped poses by
   const std::string& file;
   const Graph& graph;
@@ -46,6 +53,7 @@ struct Subject {
   std::optional<double> log_trees_ = {};
   std::optional<std::optional<double>> lambda2_ = {};
   std::optional<score::TrajectoryError> error_ = {};
+  std::optional<std::optional<score::Divergence>> divergence_ = {};
   std::optional<factor::Problem> problem_ = {};
   std::optional<factor::Values> values_ = {};
   std::optional<std::vector<score::PoseSigma>> sigmas_ = {};  // none of a singular graph
@@ -71,9 +79,19 @@ struct Subject {
   }
   const score::TrajectoryError& error() {
     return cmd::once(error_, [&] {
-      return score::trajectory_error(trajectory(), reference.value(),
+      return score::trajectory_error(trajectory(), reference.value().trajectory,
                                      score::alignment(options.align).value());
     });
+  }
+  const std::optional<score::Divergence>& divergence() {
+    return cmd::once(divergence_,
+                     [&] { return score::divergence(graph, reference.value().graph); });
+  }
+  std::optional<double> kld() {
+    return divergence() ? std::optional(divergence()->kld) : std::nullopt;
+  }
+  std::optional<double> overconfidence() {
+    return divergence() ? std::optional(divergence()->overconfidence) : std::nullopt;
   }
 };
 
@@ -134,6 +152,10 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return row.of.error().ate; }, "--reference"},
     {"rpe_rmse", "Relative pose error, its root mean square",
      [](Row& row) { return row.of.error().rpe; }, "--reference"},
+    {"kld", "Divergence of the reference's Gaussian from the graph's",
+     [](Row& row) { return row.of.kld(); }, "--reference"},
+    {"overconfidence", "How many times too small a variance of the graph's is, at worst",
+     [](Row& row) { return row.of.overconfidence(); }, "--reference"},
     {"order", "The ordering", [](Row& row) { return row.method.label; }},
     {"ec", "Elimination complexity", &Row::ec},
 };
@@ -155,7 +177,7 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_weights(command.app, options.weights, "Of log_trees and lambda2");
   command.app
       .add_option("--reference", options.reference,
-                  "A graph or a trajectory (TUM, KITTI),\nfor ATE and RPE")
+                  "A graph, or for ATE and RPE alone a\ntrajectory (TUM, KITTI)")
       ->option_text("FILE");
   command.app
       .add_option(
@@ -175,10 +197,10 @@ void add_options(cmd::Command& command, Options& options) {
 }
 
 // A graph's or a trajectory's file, of any format: it need not be that of the graphs.
-score::Trajectory read_trajectory(const std::string& path, formats::ReadOptions options) {
+Reference read_reference(const std::string& path, formats::ReadOptions options) {
   options.format.clear();
   cmd::begin_reading(path);
-  return score::trajectory(formats::read_graph(path, options));
+  return {formats::read_graph(path, options)};
 }
 
 score::Odometry read_odometry(const std::string& path, formats::ReadOptions options) {
@@ -217,7 +239,8 @@ void check_columns(const CLI::App& app, const Options& options) {
 
 // What makes a comparison other than it looks.
 void warn_of_reference(const cmd::Command& command, Subject& subject) {
-  const score::Trajectory &own = subject.trajectory(), &reference = subject.reference.value();
+  const score::Trajectory &own = subject.trajectory(),
+                          &reference = subject.reference.value().trajectory;
   std::vector<Id> shared;
   std::ranges::set_intersection(own.id, reference.id, std::back_inserter(shared));
   const std::string both =
@@ -271,9 +294,9 @@ void run(const cmd::Command& command, const Options& options) {
     table.emplace(options.table, columns, given, output);
   }
   output.keep_rows();
-  std::optional<score::Trajectory> reference;
+  std::optional<Reference> reference;
   if (!options.reference.empty())
-    reference = read_trajectory(options.reference, options.inputs.options);
+    reference = read_reference(options.reference, options.inputs.options);
   std::optional<score::Odometry> odometry;
   if (!options.fill.empty()) odometry = read_odometry(options.fill, options.inputs.options);
   const trees::Weights weights = trees::tree_weights(options.weights).value();

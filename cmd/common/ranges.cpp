@@ -1,5 +1,7 @@
 #include "cmd/common/ranges.h"
 
+#include <algorithm>
+
 #include "lib/text/words.h"
 
 namespace sg::cmd {
@@ -18,6 +20,17 @@ std::vector<std::pair<Id, Id>> parse_ranges(const std::string& option,
   std::vector<std::pair<Id, Id>> ranges;
   ranges.reserve(texts.size());
   for (const auto& text : texts) ranges.push_back(parse_range(option, text));
+  return ranges;
+}
+
+std::vector<std::pair<Id, Id>> ranges_of_vertices(const Graph& graph, const std::string& option,
+                                                  const std::vector<std::string>& texts) {
+  const auto ranges = parse_ranges(option, texts);
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    const auto there = std::ranges::lower_bound(graph.id, ranges[k].first);
+    if (there == graph.id.end() || *there > ranges[k].second)
+      throw text::usage_error(option + " " + texts[k] + ": the graph has no such vertex");
+  }
   return ranges;
 }
 

@@ -15,4 +15,8 @@ std::pair<Id, Id> parse_range(const std::string& option, std::string_view text);
 std::vector<std::pair<Id, Id>> parse_ranges(const std::string& option,
                                             const std::vector<std::string>& texts);
 
+// The same where each has to hold a vertex of the graph.
+std::vector<std::pair<Id, Id>> ranges_of_vertices(const Graph& graph, const std::string& option,
+                                                  const std::vector<std::string>& texts);
+
 }  // namespace sg::cmd

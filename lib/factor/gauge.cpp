@@ -97,7 +97,7 @@ struct Noticed {
 };
 Noticed noticed(const Problem& problem, const Values& values, const Frame& frame, Index r,
                 const double* block) {
-  const int height = problem.model[r]->dim;
+  const int height = dim_of(problem, r);
   Noticed result{Motions::Zero(height, motions), Eigen::VectorXd::Zero(height)};
   for (Index j : problem.variables.pattern.rows[r]) {
     const int dim = problem.variables.pattern.dim[j];
@@ -130,7 +130,7 @@ Index first_pose(const Graph& graph) {
 bool is_anchor(const Problem& problem, Index e) {
   const Graph& graph = *problem.graph;
   const auto ends = graph.edge(e);
-  return ends.size() == 1 ||
+  return ends.size() == 1 || graph.edge_tag(e) == graph::EdgeTag::linear ||
          std::ranges::any_of(ends, [&](Index v) { return bool(graph.fixed[v]); }) ||
          std::ranges::none_of(ends, [&](Index v) { return graph.role(v) == graph::Role::pose; });
 }
@@ -153,10 +153,11 @@ bool holds_gauge(const Problem& problem, const Values& values, std::span<const I
   }
   const Frame frame = frame_of(problem, values, anchored);
   Gram gram = Gram::Zero();
-  double block[max_block];
   for (Index e : anchors) {
-    linearize_row(problem, values, {}, e, block);
-    const Noticed rows = noticed(problem, values, frame, e, block);
+    Room<double, max_block> block(block_rows(problem, e) *
+                                  block_columns(problem.variables.pattern, e));
+    linearize_row(problem, values, {}, e, block.data());
+    const Noticed rows = noticed(problem, values, frame, e, block.data());
     for (Eigen::Index i = 0; i < rows.length.size(); ++i) {
       const double size = rows.motions.row(i).norm();
       if (!(size > unnoticed * rows.length[i]) || !std::isfinite(size)) continue;

@@ -26,7 +26,7 @@ void gauge_row(int held, int dim, double* block) {
 // those of one variable are added up.
 void gather_columns(const Problem& problem, Index e, const double* all, double* block) {
   const graph::Pattern& pattern = problem.variables.pattern;
-  const int dim = problem.model[e]->dim;
+  const int dim = dim_of(problem, e);
   const auto variables = pattern.rows[e];
   std::fill_n(block, dim * columns(pattern, e), 0.0);
   for (Index v : problem.graph->edge(e)) {
@@ -45,7 +45,7 @@ void gather_columns(const Problem& problem, Index e, const double* all, double* 
 void clear_held(const Problem& problem, Index e, double* block) {
   const graph::Pattern& pattern = problem.variables.pattern;
   for (Index j : pattern.rows[e]) {
-    const int height = problem.model[e]->dim;
+    const int height = dim_of(problem, e);
     if (j == problem.held) std::fill_n(block, height * held_dim(problem), 0.0);
     block += height * pattern.dim[j];
   }
@@ -70,7 +70,7 @@ text::Error error_of_edge(const Problem& problem, Index e, const std::string& ca
 
 int block_rows(const Problem& problem, Index r) {
   const bool gauge = r >= problem.graph->edges();
-  return gauge ? held_dim(problem) : problem.model[r]->dim;
+  return gauge ? held_dim(problem) : dim_of(problem, r);
 }
 
 int block_columns(const graph::Pattern& pattern, Index r) {
@@ -115,17 +115,21 @@ void linearize_row(const Problem& problem, const Values& values, const Kernel& k
   const double* const c = constants_of(problem, r);
   const Whitening U = whitening_of(problem, r);
   const auto variables = pattern.rows[r];
-  if (static_cast<int>(variables.size()) == model.arity) {
+  const auto vertices = problem.graph->edge(r);
+  if (variables.size() == vertices.size()) {
     model.linearize(x.data(), c, U, block);
   } else {
-    double all[max_block];
-    model.linearize(x.data(), c, U, all);
-    gather_columns(problem, r, all, block);
+    int width = 1;
+    for (Index v : vertices) width += problem.graph->dim(v);
+    Room<double, max_block> all(dim_of(problem, r) * width);
+    model.linearize(x.data(), c, U, all.data());
+    gather_columns(problem, r, all.data(), block);
   }
   if (std::find(variables.begin(), variables.end(), problem.held) != variables.end()) {
     clear_held(problem, r, block);
   }
-  if (kernel.shape != KernelShape::none) reweigh(kernel, model.dim, columns(pattern, r), block);
+  if (kernel.shape != KernelShape::none)
+    reweigh(kernel, dim_of(problem, r), columns(pattern, r), block);
 }
 
 void check_row(const Problem& problem, Index r, std::span<const double> block) {
@@ -155,10 +159,11 @@ void linearize(const Problem& problem, const Values& values, const Kernel& kerne
 double edge_chi2(const Problem& problem, const Values& values, Index e) {
   const Model& model = *problem.model[e];
   const Ends x = ends_of(problem, values, e);
-  double error[max_dim];
-  model.error(x.data(), constants_of(problem, e), whitening_of(problem, e), error);
+  const int dim = dim_of(problem, e);
+  Room<double, max_dim> error(dim);
+  model.error(x.data(), constants_of(problem, e), whitening_of(problem, e), error.data());
   double sum = 0;
-  for (int k = 0; k < model.dim; ++k) sum += error[k] * error[k];
+  for (int k = 0; k < dim; ++k) sum += error[k] * error[k];
   return sum;
 }
 

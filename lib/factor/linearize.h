@@ -39,7 +39,8 @@ LinearSystem make_linear_system(const Problem& problem);
 LinearSystem make_linear_system(const Problem&&) = delete;
 
 // Row r of the system at `values`: writes its block, height x (columns + 1) numbers. Rows beyond
-// the edges: the gauge's. Thread-safe; allocates nothing.
+// the edges: the gauge's. Thread-safe; allocates nothing but
+// for linear factors.
 void linearize_row(const Problem& problem, const Values& values, const Kernel& kernel, Index r,
                    double* block);
 

@@ -29,6 +29,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "lib/factor/space.h"
 
@@ -38,6 +39,22 @@ constexpr int max_ends = 2;
 constexpr int max_dim = 6;                                      // of an error
 constexpr int max_step = 9;                                     // of a vertex
 constexpr int max_block = max_dim * (max_ends * max_step + 1);  // numbers of a linearized factor
+// Of all but linear factors (linear.h), which join any number of vertices.
+
+// Room for `size` things, on the stack where they are few.
+template <class T, int few>
+class Room {
+ public:
+  explicit Room(std::size_t size) : many_(size > few ? size : 0) {}
+  T* data() { return many_.empty() ? few_.data() : many_.data(); }
+  const T* data() const { return many_.empty() ? few_.data() : many_.data(); }
+  T operator[](std::size_t k) const { return data()[k]; }
+  T& operator[](std::size_t k) { return data()[k]; }
+
+ private:
+  std::array<T, few> few_;
+  std::vector<T> many_;
+};
 
 template <graph::EdgeTag type>
 struct EdgeModel;  // has no definition where there is no model
@@ -85,6 +102,7 @@ struct Whitening {
 struct Model {
   graph::EdgeTag type;
   std::string_view tag;
+  // Of a linear factor 0, for they depend on its vertices.
   int dim;
   int measurement;
   int extra;

@@ -9,6 +9,7 @@
 #include "lib/factor/edge_se2_point.h"
 #include "lib/factor/edge_se3.h"
 #include "lib/factor/edge_se3_point.h"
+#include "lib/factor/linear.h"
 #include "lib/factor/model.h"
 
 namespace sg::factor {
@@ -81,6 +82,7 @@ Model model() {
 template <graph::EdgeTag type>
 void add_model(std::vector<Model>& table) {
   if constexpr (requires { EdgeModel<type>::evaluate; }) table.push_back(model<EdgeModel<type>>());
+  if constexpr (graph::is_linear(type)) table.push_back(linear_model(type));
 }
 
 template <std::size_t... type>

@@ -87,7 +87,7 @@ void check_scales(const Problem& problem, graph::Findings& findings) {
   const Graph& graph = *problem.graph;
   std::map<graph::TypeIndex, Extremes> types;
   for (Index e = 0; e < graph.edges(); ++e) {
-    const int dim = problem.model[e]->dim;
+    const int dim = dim_of(problem, e);
     const double* const U = problem.whitening.data() + problem.whitening_at[e];
     const double scale = Eigen::Map<const Eigen::MatrixXd>(U, dim, dim).squaredNorm() / dim;
     if (!(scale > 0)) continue;

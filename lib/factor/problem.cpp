@@ -7,6 +7,7 @@
 
 #include "lib/factor/gauge.h"
 #include "lib/factor/initialize.h"
+#include "lib/factor/linear.h"
 #include "lib/factor/whitening.h"
 #include "lib/geometry/numbers.h"
 #include "lib/geometry/triangle.h"
@@ -108,36 +109,65 @@ Index store_whitening(Builder& builder, Index e, std::span<const double> triangl
   return static_cast<Index>(problem.whitening.size()) - dim * dim;
 }
 
+void read_numbers(Builder& builder, Index e, int wanted) {
+  const Graph& graph = builder.graph;
+  auto& numbers = builder.numbers;
+  graph::edge_numbers(graph, e, numbers);
+  if (static_cast<int>(numbers.size()) < wanted) {
+    throw graph::error_at(graph, graph.edge_line[e],
+                          graph.type_of_edge(e).tag + " wants " + std::to_string(wanted) +
+                              " numbers, not " + std::to_string(numbers.size()));
+  }
+  check_finite(graph, graph.edge_line[e], numbers);
+}
+
+// Of the numbers at hand, behind the measurement.
+void add_information(Builder& builder, Index e, int measurement, int dim) {
+  const std::span<const double> information(builder.numbers.data() + measurement,
+                                            static_cast<std::size_t>(geometry::triangle_size(dim)));
+  builder.problem.whitening_at.push_back(store_whitening(builder, e, information, dim));
+  builder.problem.diagonal.push_back(geometry::is_diagonal(information, dim));
+}
+
+double* add_constants(Problem& problem, const Model& model, int count) {
+  problem.model.push_back(&model);
+  problem.constants_at.push_back(static_cast<Index>(problem.constants.size()));
+  problem.constants.resize(problem.constants.size() + count);
+  return problem.constants.data() + problem.constants_at.back();
+}
+
+void add_linear_factor(Builder& builder, Index e, const Model& model) {
+  const Graph& graph = builder.graph;
+  const auto spaces = graph::end_spaces(graph, e);
+  if (const std::string cause = misfit(model.type, spaces); !cause.empty())
+    throw graph::error_at(graph, graph.edge_line[e], quoted(model.tag) + cause);
+  const graph::LinearSize size = graph::linear_size(model.type, spaces);
+  read_numbers(builder, e, size.measurement + geometry::triangle_size(size.dim));
+  add_information(builder, e, size.measurement, size.dim);
+  double* const constants = add_constants(builder.problem, model, linear_constants(size, spaces));
+  if (!prepare_linear(model.type, spaces, builder.numbers.data(), constants))
+    throw graph::error_at(graph, graph.edge_line[e], "a quaternion has length zero");
+}
+
 void add_factor(Builder& builder, Index e) {
   const Graph& graph = builder.graph;
   const Offset line = graph.edge_line[e];
   const graph::EdgeType& type = graph.type_of_edge(e);
   const Model* model = find_model(graph.edge_tag(e));
   if (!model) throw graph::error_at(graph, line, type.tag + " has no measurement model here");
+  if (graph::is_linear(model->type)) return add_linear_factor(builder, e, *model);
   check_ends(builder, e, *model);
 
   auto& numbers = builder.numbers;
-  graph::edge_numbers(graph, e, numbers);
   const int triangle = geometry::triangle_size(model->dim);
-  const int wanted = model->measurement + triangle + model->extra;
-  if (static_cast<int>(numbers.size()) < wanted) {
-    throw graph::error_at(graph, line,
-                          type.tag + " wants " + std::to_string(wanted) + " numbers, not " +
-                              std::to_string(numbers.size()));
-  }
-  check_finite(graph, line, numbers);
+  read_numbers(builder, e, model->measurement + triangle + model->extra);
 
   Problem& problem = builder.problem;
-  const std::span<const double> information(numbers.data() + model->measurement, triangle);
-  problem.whitening_at.push_back(store_whitening(builder, e, information, model->dim));
-  problem.diagonal.push_back(geometry::is_diagonal(information, model->dim));
+  add_information(builder, e, model->measurement, model->dim);
   // What the model keeps: the measurement and the numbers behind the information, together.
   numbers.erase(numbers.begin() + model->measurement,
                 numbers.begin() + model->measurement + triangle);
-  problem.model.push_back(model);
-  problem.constants_at.push_back(static_cast<Index>(problem.constants.size()));
-  problem.constants.resize(problem.constants.size() + model->constants);
-  double* const constants = problem.constants.data() + problem.constants_at.back();
+  double* const constants = add_constants(problem, *model, model->constants);
   if (!model->prepare(numbers.data(), find_params(builder, e, *model).data(), constants)) {
     throw graph::error_at(graph, line, "a quaternion has length zero");
   }
@@ -212,6 +242,11 @@ Values file_values(const Problem& problem) {
     }
   }
   return values;
+}
+
+int dim_of(const Problem& problem, Index e) {
+  const Model& model = *problem.model[e];
+  return model.dim > 0 ? model.dim : linear_dim(constants_of(problem, e));
 }
 
 std::vector<Index> starts(std::span<const int> dim) {

@@ -61,6 +61,7 @@ inline bool is_held(const Problem& problem, Index j) {
 }
 
 // What edge e has of it all.
+int dim_of(const Problem& problem, Index e);  // of its error
 inline const double* constants_of(const Problem& problem, Index e) {
   return problem.constants.data() + problem.constants_at[e];
 }
@@ -69,10 +70,10 @@ inline Whitening whitening_of(const Problem& problem, Index e) {
 }
 
 // The estimates of edge e's vertices.
-using Ends = std::array<const double*, max_ends>;
+using Ends = Room<const double*, max_ends>;
 inline Ends ends_of(const Problem& problem, const Values& values, Index e) {
-  Ends x{};
   const auto vertices = problem.graph->edge(e);
+  Ends x(vertices.size());
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     x[k] = values.data() + problem.value_at[vertices[k]];
   }

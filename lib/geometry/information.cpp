@@ -19,6 +19,16 @@ Matrix sum_information(const Matrix& a, const Matrix& b) {
   return (product + product.transpose()) / 2;
 }
 
+template <class Matrix>
+SquareRoot<Matrix> root_of(const Matrix& W) {
+  const Eigen::LLT<Matrix> cholesky(W);
+  if (cholesky.info() == Eigen::Success) return {cholesky.matrixU(), true, 0};
+  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(W);
+  const auto& values = spectrum.eigenvalues();
+  return {values.cwiseMax(0).cwiseSqrt().asDiagonal() * spectrum.eigenvectors().transpose(), false,
+          values[0] / std::abs(values[values.size() - 1])};
+}
+
 }  // namespace
 
 Eigen::Matrix3d parallel_sum(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
@@ -34,17 +44,15 @@ SmallVector least_norm_solution(const SmallMatrix& a, const SmallVector& b) {
   return a.completeOrthogonalDecomposition().solve(b);
 }
 
-SquareRoot square_root(const SmallMatrix& W) {
-  const Eigen::LLT<SmallMatrix> cholesky(W);
-  if (cholesky.info() == Eigen::Success) return {cholesky.matrixU(), true, 0};
-  const Eigen::SelfAdjointEigenSolver<SmallMatrix> spectrum(W);
-  const auto& values = spectrum.eigenvalues();
-  return {values.cwiseMax(0).cwiseSqrt().asDiagonal() * spectrum.eigenvectors().transpose(), false,
-          values[0] / std::abs(values[values.size() - 1])};
+SquareRoot<SmallMatrix> square_root(const SmallMatrix& W) {
+  return root_of(W);
+}
+SquareRoot<Eigen::MatrixXd> square_root(const Eigen::MatrixXd& W) {
+  return root_of(W);
 }
 
 std::optional<SmallMatrix> triangular_square_root(const SmallMatrix& W) {
-  const SquareRoot root = square_root(W);
+  const auto root = square_root(W);
   if (root.regular) return root.U;
   if (root.least < -semidefinite_rounding) return std::nullopt;
   const Eigen::HouseholderQR<SmallMatrix> qr(root.U);

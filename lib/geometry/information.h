@@ -14,20 +14,24 @@ Eigen::Matrix<double, 6, 6> parallel_sum(const Eigen::Matrix<double, 6, 6>& a,
                                          const Eigen::Matrix<double, 6, 6>& b);
 
 // Up to six dimensions, those of a motion in space; no memory of their own.
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+constexpr int small_size = 6;
+using SmallMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, small_size, small_size>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, small_size, 1>;
 
 // A^+ b: of all x that bring A x nearest to b the shortest.
 SmallVector least_norm_solution(const SmallMatrix& a, const SmallVector& b);
 
 // U with U' U = W: Cholesky's triangle where W is regular, sqrt(D) V' where it is not (W = V D V').
+template <class Matrix>
 struct SquareRoot {
-  SmallMatrix U;
+  Matrix U;
   bool regular;
   double
       least;  // of a singular W: the least of its eigenvalues, over the largest one's size; below 0 they count as 0
 };
-SquareRoot square_root(const SmallMatrix& W);
+SquareRoot<SmallMatrix> square_root(const SmallMatrix& W);
+SquareRoot<Eigen::MatrixXd> square_root(const Eigen::MatrixXd& W);
 
 // Eigenvalues this far below zero, relative to the largest, are rounding of the numbers in a file.
 constexpr double semidefinite_rounding = 1e-6;

@@ -10,6 +10,7 @@
 
 #include "lib/geometry/triangle.h"
 #include "lib/graph/components.h"
+#include "lib/graph/linear.h"
 
 namespace sg::graph {
 namespace {
@@ -43,13 +44,27 @@ bool semidefinite(const Eigen::MatrixXd& matrix) {
   return solver.info() == Eigen::Success && solver.eigenvalues()[0] >= -1e-9 * largest;
 }
 
+// How many numbers the measurement of an edge has, -1 where that is not known, and the dimension of its error.
+struct Sizes {
+  Index measurement;
+  std::int64_t dim;
+};
+Sizes sizes(const Graph& graph, Index e) {
+  const EdgeType& type = graph.type_of_edge(e);
+  if (is_linear(graph.edge_tag(e))) {
+    const LinearSize size = linear_size(graph.edge_tag(e), end_spaces(graph, e));
+    return {size.measurement, size.dim};
+  }
+  if (type.measurement < 0 || !type.counted) return {type.measurement, type.dim};
+  const Index all = static_cast<Index>(graph.edge(e).size() - 1) * type.measurement;
+  return {all, all};
+}
+
 // `numbers`: of the edge's line, as edge_numbers gives them.
 void check_information(const Graph& graph, Index e, const Numbers& numbers, Findings& findings) {
   const EdgeType& type = graph.type_of_edge(e);
-  if (type.measurement < 0) return;
-  const auto repeats = static_cast<Index>(type.counted ? graph.edge(e).size() - 1 : 1);
-  const Index measurement = repeats * type.measurement;
-  const std::int64_t dim = type.counted ? measurement : type.dim;
+  const auto [measurement, dim] = sizes(graph, e);
+  if (measurement < 0) return;
   const auto given = static_cast<std::int64_t>(numbers.size()) - measurement;
   if (dim == 0 || given < geometry::triangle_size(dim)) return;
   const double* const w = numbers.data() + measurement;

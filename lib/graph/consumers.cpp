@@ -101,6 +101,7 @@ void check_tags(const Graph& graph, std::string_view who,
 
 bool g2o_knows(const Graph&, std::string_view tag) {
   const auto is = [tag](const auto& row) { return row.tag == tag; };
+  if (tag == name(EdgeTag::linear) || tag == name(EdgeTag::linear_relative)) return false;
   return std::ranges::any_of(vertex_rows, is) || std::ranges::any_of(edge_rows, is);
 }
 

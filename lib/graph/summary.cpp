@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/graph/components.h"
+#include "lib/graph/linear.h"
 #include "lib/graph/replay.h"
 
 namespace sg::graph {
@@ -20,6 +21,7 @@ void count_vertices(const Graph& graph, Summary& summary) {
 
 std::int64_t rows_of(const Graph& graph, Index e) {
   const EdgeType& type = graph.type_of_edge(e);
+  if (is_linear(graph.edge_tag(e))) return linear_size(graph.edge_tag(e), end_spaces(graph, e)).dim;
   if (!type.counted) return std::max(type.dim, 0);
   return std::max(type.measurement, 0) * (static_cast<std::int64_t>(graph.edge(e).size()) - 1);
 }

@@ -4,7 +4,7 @@
 //
 // Source: the type libraries of g2o (slam2d, slam3d, sba, sim3, sclam2d), which register these tags
 // and define the estimates, tangent steps and errors; TORO for VERTEX2, EDGE2, VERTEX3, EDGE3. The
-// tags of BAL are ours, after the classes of g2o's example, which have none.
+// tags of BAL are ours, after the classes of g2o's example, which have none; so are linear factors.
 #pragma once
 
 #include <algorithm>
@@ -164,7 +164,7 @@ enum class EdgeTag : std::uint8_t {
   se3_calib, se3_lotsof_xyz, gicp, toro3, toro2, expmap, project_xyz2uv, project_xyz2uvu,
   se3_project_xyz, stereo_se3_project_xyz, se3_project_xyz_onlypose,
   stereo_se3_project_xyz_onlypose, project_p2mc, project_p2sc, cam, scale, sim3, project_sim3_xyz,
-  project_inverse_sim3_xyz, observation_bal,
+  project_inverse_sim3_xyz, observation_bal, linear, linear_relative,
 };
 // clang-format on
 
@@ -198,7 +198,8 @@ struct EdgeRow {
   EdgeTag type;
   std::string_view tag;
   Measure measure;             // of a counted edge: for every vertex that repeats
-  UpTo<VertexTag, 3> ends;     // in file order; of a counted edge: the first, and what repeats
+  UpTo<VertexTag, 3> ends;     // in file order; of a counted edge: the first, and what repeats;
+                               // of a linear factor none: any vertices (linear.h)
   UpTo<ParamTag, 2> params{};  // that its line refers to, between vertices and numbers
   bool counted = false;  // TAG first-id count id...: the number of vertices stands in the line
 };
@@ -294,6 +295,8 @@ inline constexpr std::array edges{
             plain(2),
             {XYZ, SIM3}},
     EdgeRow{Tag::observation_bal, "EDGE_OBSERVATION_BAL", plain(2), {CAMERA_BAL, XYZ}},
+    EdgeRow{Tag::linear, "EDGE_LINEAR", unread(-1), {}, {}, true},
+    EdgeRow{Tag::linear_relative, "EDGE_LINEAR_RELATIVE", unread(-1), {}, {}, true},
 };
 
 }  // namespace rows

@@ -1,7 +1,6 @@
 #include "lib/solve/batch.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -123,9 +122,10 @@ std::vector<double> rounding_of_estimate(const Run& run) {
 // Whether chi2 is what such moves make of 0.
 bool is_zero(const Run& run, const std::vector<double>& moves) {
   double sum = 0;
+  std::vector<double> most;
   for (Index r = 0; r < run.problem.graph->edges(); ++r) {
     const double* number = run.system.block(r);
-    std::array<double, factor::max_dim> most{};
+    most.assign(run.system.height[r], 0);
     for (Index j : run.system.pattern->rows[r]) {
       for (Index k = run.problem.step_at[j]; k < run.problem.step_at[j + 1]; ++k) {
         for (int i = 0; i < run.system.height[r]; ++i) most[i] += std::abs(*number++) * moves[k];

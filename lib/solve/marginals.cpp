@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "lib/solve/assembly.h"
@@ -129,30 +130,91 @@ void each_row(const Elimination& e, std::span<const Index> variables, const auto
   }
 }
 
-}  // namespace
-
-std::vector<MatrixXd> marginal_covariances(Elimination& e) {
-  std::vector<MatrixXd> blocks(e.dim.size());
+// Calls visit(c, below, separator's covariance) for every clique, parents before children.
+void each_clique(Elimination& e, const auto& visit) {
   std::vector<Padded> separator(e.tree.cliques());  // of every clique that waits for its turn
   for (Index c = e.tree.cliques() - 1; c >= 0; --c) {
     const bool leaf = e.children[c].empty();
     if (leaf && e.tree.parent[c] >= 0) continue;  // with its parent, lest all leaves wait at once
     const Padded above = std::exchange(separator[c], {});
     const Below here = below(e.front(c), above);
-    set_blocks(e, c, here.frontal, blocks);
+    visit(c, here, above);
     if (leaf) continue;
     const Padded joint = whole(here, above);
     for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i) {
       const Index child = e.children.items[i];
       Padded of_child = gathered(joint, e.child_runs[i]);
       if (e.children[child].empty()) {
-        set_blocks(e, child, below(e.front(child), of_child).frontal, blocks);
+        visit(child, below(e.front(child), of_child), of_child);
       } else {
         separator[child] = std::move(of_child);
       }
     }
   }
+}
+
+// Where the columns of a row, without its right-hand side, are in the front of its clique.
+std::vector<int> places(std::span<const Run> runs) {
+  std::vector<int> result(rows_covered(runs));
+  for (const Run& run : runs)
+    std::iota(result.begin() + run.from, result.begin() + run.from + run.length, run.to);
+  result.pop_back();
+  return result;
+}
+
+}  // namespace
+
+std::vector<MatrixXd> marginal_covariances(Elimination& e) {
+  std::vector<MatrixXd> blocks(e.dim.size());
+  each_clique(e, [&](Index c, const Below& here, const Padded&) {
+    set_blocks(e, c, here.frontal, blocks);
+  });
   return blocks;
+}
+
+std::vector<double> row_variances(Elimination& e, const factor::LinearSystem& system) {
+  std::vector<double> result(system.height.size(), 0);
+  each_clique(e, [&](Index c, const Below& here, const Padded& above) {
+    MatrixXd joint;
+    for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i) {
+      const Index r = e.rows.items[i];
+      const std::span block(system.block(r), system.block(r + 1));
+      if (std::ranges::all_of(block, [](double x) { return x == 0; })) continue;
+      if (joint.size() == 0) joint = whole(here, above).view();
+      const std::vector<int> at = places(e.row_runs[i]);
+      const Eigen::Map<const MatrixXd> A(block.data(), system.height[r],
+                                         static_cast<Eigen::Index>(at.size()));
+      result[r] = (A * joint(at, at)).cwiseProduct(A).sum();
+    }
+  });
+  return result;
+}
+
+void solve_normal_equations(Elimination& e, Eigen::VectorXd& x) {
+  const auto gather = [&](std::span<const Index> variables, int dim) {
+    Eigen::VectorXd part(dim);
+    each_row(e, variables,
+             [&](int row, Index at, int size) { part.segment(row, size) = x.segment(at, size); });
+    return part;
+  };
+  const auto scatter = [&](std::span<const Index> variables, const Eigen::VectorXd& part) {
+    each_row(e, variables,
+             [&](int row, Index at, int size) { x.segment(at, size) = part.segment(row, size); });
+  };
+  for (Index c = 0; c < e.tree.cliques(); ++c) {
+    const Front front = e.front(c);
+    Eigen::VectorXd frontal = gather(e.tree.frontals[c], front.f);
+    l11(front).triangularView<Eigen::Lower>().solveInPlace(frontal);
+    scatter(e.tree.frontals[c], frontal);
+    scatter(e.tree.separators[c], gather(e.tree.separators[c], front.s()) - l21(front) * frontal);
+  }
+  for (Index c = e.tree.cliques() - 1; c >= 0; --c) {
+    const Front front = e.front(c);
+    Eigen::VectorXd frontal = gather(e.tree.frontals[c], front.f);
+    frontal -= l21(front).transpose() * gather(e.tree.separators[c], front.s());
+    l11(front).transpose().triangularView<Eigen::Upper>().solveInPlace(frontal);
+    scatter(e.tree.frontals[c], frontal);
+  }
 }
 
 MatrixXd joint_covariance(Elimination& e, std::span<const Index> variables) {

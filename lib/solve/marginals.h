@@ -21,6 +21,13 @@ namespace sg::solve {
 // After eliminate, of a regular system: the covariance of every variable, dim x dim.
 std::vector<Eigen::MatrixXd> marginal_covariances(Elimination& elimination);
 
+// Of the system's rows, which are of the same structure as those that were eliminated and may be of other numbers: of
+// every row A_r the trace of A_r S A_r', S the covariance of all variables.
+std::vector<double> row_variances(Elimination& elimination, const factor::LinearSystem& system);
+
+// x := S x, by scalar of a step.
+void solve_normal_equations(Elimination& elimination, Eigen::VectorXd& x);
+
 // The same of a few variables together, one's scalars after the other's.
 Eigen::MatrixXd joint_covariance(Elimination& elimination, std::span<const Index> variables);
 

@@ -5,6 +5,7 @@
 
 #include "formats/formats.h"
 #include "lib/factor/initialize.h"
+#include "lib/factor/linear.h"
 #include "lib/factor/linearize.h"
 #include "lib/text/error.h"
 #include "tests/unit/common.h"
@@ -28,23 +29,66 @@ std::vector<double> random_estimate(Random& random, graph::Space space) {
 
 struct Instance {
   const factor::Model& model;
+  int dim;
+  std::vector<graph::Space> spaces;
   std::vector<std::vector<double>> x;
   std::vector<double> constants;
   std::vector<double> U;
   bool diagonal = false;
 
-  std::array<const double*, factor::max_ends> ends() const {
-    std::array<const double*, factor::max_ends> pointers{};
-    for (std::size_t k = 0; k < x.size(); ++k) pointers[k] = x[k].data();
+  std::vector<const double*> ends() const {
+    std::vector<const double*> pointers;
+    for (const auto& end : x) pointers.push_back(end.data());
     return pointers;
   }
 };
 
+void set_whitening(Random& random, Instance& instance) {
+  const int dim = instance.dim;
+  Eigen::MatrixXd U =
+      Eigen::MatrixXd::NullaryExpr(dim, dim, [&] { return uniform(random, -1, 1); });
+  instance.diagonal = draw(random, 0, 1) == 1;
+  if (instance.diagonal) U = Eigen::MatrixXd(U.diagonal().asDiagonal());
+  instance.U.assign(U.data(), U.data() + U.size());
+}
+
+// A linear factor of one to four vertices of the plane, of space, or of cameras and points; a pose first.
+Instance random_linear(Random& random, const factor::Model& model) {
+  using enum graph::Space;
+  const std::vector<std::vector<graph::Space>> worlds{
+      {se2, xy}, {se3, xyz}, {expmap, bal_camera, xyz}};
+  const auto& world = worlds[draw(random, 0, 2)];
+  const int poses = static_cast<int>(world.size()) - 1;
+  Instance instance{model, 0, {world[draw(random, 0, poses - 1)]}, {}, {}, {}};
+  for (int k = draw(random, 1, 3); k > 0; --k)
+    instance.spaces.push_back(world[draw(random, 0, poses)]);
+  std::vector<double> numbers;
+  for (const graph::Space space : instance.spaces) {
+    instance.x.push_back(random_estimate(random, space));
+    const std::vector<double> at = random_estimate(random, space);
+    numbers.insert(numbers.end(), at.begin(), at.end());
+  }
+  const graph::LinearSize size = graph::linear_size(model.type, instance.spaces);
+  instance.dim = size.dim;
+  for (int k = 0; k < size.dim; ++k) numbers.push_back(uniform(random, -0.1, 0.1));
+  REQUIRE(factor::misfit(model.type, instance.spaces).empty());
+  REQUIRE(static_cast<int>(numbers.size()) == size.measurement);
+  instance.constants.resize(factor::linear_constants(size, instance.spaces));
+  REQUIRE(factor::prepare_linear(model.type, instance.spaces, numbers.data(),
+                                 instance.constants.data()));
+  CHECK(factor::linear_dim(instance.constants.data()) == size.dim);
+  set_whitening(random, instance);
+  return instance;
+}
+
 // A random measurement, camera and offset near to what random estimates would see.
 Instance random_instance(Random& random, const factor::Model& model) {
-  Instance instance{model, {}, std::vector<double>(model.constants), {}};
-  for (int k = 0; k < model.arity; ++k)
+  if (graph::is_linear(model.type)) return random_linear(random, model);
+  Instance instance{model, model.dim, {}, {}, std::vector<double>(model.constants), {}};
+  for (int k = 0; k < model.arity; ++k) {
+    instance.spaces.push_back(model.ends[k]);
     instance.x.push_back(random_estimate(random, model.ends[k]));
+  }
   std::vector<double> z(model.measurement + model.extra);
   for (double& number : z) number = uniform(random, 0.5, 1.5);
   if (model.measurement == 7) Eigen::Map<Eigen::Vector4d>(z.data() + 3).normalize();
@@ -61,37 +105,35 @@ Instance random_instance(Random& random, const factor::Model& model) {
   }
   for (const auto& param : params) pointers.push_back(param.data());
   REQUIRE(model.prepare(z.data(), pointers.data(), instance.constants.data()));
-  Eigen::MatrixXd U =
-      Eigen::MatrixXd::NullaryExpr(model.dim, model.dim, [&] { return uniform(random, -1, 1); });
-  instance.diagonal = draw(random, 0, 1) == 1;
-  if (instance.diagonal) U = Eigen::MatrixXd(U.diagonal().asDiagonal());
-  instance.U.assign(U.data(), U.data() + U.size());
+  set_whitening(random, instance);
   return instance;
 }
 
 Eigen::VectorXd error(const Instance& instance) {
-  Eigen::VectorXd r(instance.model.dim);
+  Eigen::VectorXd r(instance.dim);
   instance.model.error(instance.ends().data(), instance.constants.data(),
                        {instance.U.data(), instance.diagonal}, r.data());
   return r;
 }
 
 Eigen::VectorXd error_after(Instance instance, int end, int axis, double length) {
-  std::vector<double> step(graph::space_dim(instance.model.ends[end]), 0.0);
+  std::vector<double> step(graph::space_dim(instance.spaces[end]), 0.0);
   step[axis] = length;
-  factor::retract(instance.model.ends[end], step.data(), instance.x[end].data());
+  factor::retract(instance.spaces[end], step.data(), instance.x[end].data());
   return error(instance);
 }
 
 void check_jacobian(const Instance& instance) {
   const factor::Model& model = instance.model;
-  std::vector<double> block(factor::max_block);
+  int width = 1;
+  for (const graph::Space space : instance.spaces) width += graph::space_dim(space);
+  std::vector<double> block(instance.dim * width);
   model.linearize(instance.ends().data(), instance.constants.data(),
                   {instance.U.data(), instance.diagonal}, block.data());
-  Eigen::Map<Eigen::MatrixXd> columns(block.data(), model.dim, factor::max_block / model.dim);
+  Eigen::Map<Eigen::MatrixXd> columns(block.data(), instance.dim, width);
   int column = 0;
-  for (int end = 0; end < model.arity; ++end) {
-    for (int axis = 0; axis < graph::space_dim(model.ends[end]); ++axis, ++column) {
+  for (int end = 0; end < static_cast<int>(instance.spaces.size()); ++end) {
+    for (int axis = 0; axis < graph::space_dim(instance.spaces[end]); ++axis, ++column) {
       const auto slope = [&](double h) -> Eigen::VectorXd {
         return (error_after(instance, end, axis, h) - error_after(instance, end, axis, -h)) /
                (2 * h);
@@ -153,11 +195,11 @@ Eigen::MatrixXd numerical(const factor::Problem& problem, const factor::Values& 
   const auto errors = [&](const factor::Values& x) {
     std::vector<double> all;
     for (Index e = 0; e < problem.graph->edges(); ++e) {
-      double r[factor::max_dim];
+      std::vector<double> r(factor::dim_of(problem, e));
       const factor::Model& model = *problem.model[e];
       model.error(factor::ends_of(problem, x, e).data(), factor::constants_of(problem, e),
-                  factor::whitening_of(problem, e), r);
-      all.insert(all.end(), r, r + model.dim);
+                  factor::whitening_of(problem, e), r.data());
+      all.insert(all.end(), r.begin(), r.end());
     }
     return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Index>(all.size())));
   };
@@ -216,6 +258,7 @@ TEST_CASE("the files of every type hold every type", "[factor]") {
     text += std::string(test_graph(name).text.view);
   }
   for (const factor::Model& model : factor::models()) {
+    if (graph::is_linear(model.type)) continue;  // of no program but ours
     INFO(model.tag);
     CHECK(text.find("\n" + std::string(model.tag) + " ") != text.npos);
   }
@@ -238,6 +281,109 @@ TEST_CASE("fixed vertices, loops and repeated edges linearize like the rest", "[
   check_system(graph_of(vertices + "FIX 0\n" + edges));
   check_system(graph_of(vertices + "FIX 1\n" + edges));
   check_system(graph_of(vertices + "FIX 0 3\n" + edges));
+}
+
+namespace {
+
+// A linear factor's line from these vertices of a graph, with its estimates, moved a little, as linearization point.
+std::string linear_line(Random& random, const Graph& graph, const std::string& tag,
+                        const std::vector<Index>& vertices) {
+  std::ostringstream line;
+  line << std::setprecision(17) << tag << " " << graph.id[vertices[0]] << " "
+       << vertices.size() - 1;
+  std::vector<graph::Space> spaces;
+  std::vector<double> numbers;
+  for (const Index v : vertices) {
+    if (v != vertices[0]) line << " " << graph.id[v];
+    spaces.push_back(graph.type_of_vertex(v).space);
+  }
+  for (const Index v : vertices) {
+    graph::vertex_numbers(graph, v, numbers);
+    for (int k = 0; k < 3 && k < std::ssize(numbers); ++k) numbers[k] += uniform(random, -0.1, 0.1);
+    for (const double number : numbers) line << " " << number;
+  }
+  const auto type = static_cast<graph::EdgeTag>(graph.tags.find(tag)->type);
+  const int dim = graph::linear_size(type, spaces).dim;
+  for (int k = 0; k < dim; ++k) line << " " << uniform(random, -0.1, 0.1);
+  const Eigen::MatrixXd root =
+      Eigen::MatrixXd::NullaryExpr(dim, dim, [&] { return uniform(random, -1, 1); });
+  const Eigen::MatrixXd W = root.transpose() * root;
+  for (int i = 0; i < dim; ++i) {
+    for (int j = i; j < dim; ++j) line << " " << W(i, j);
+  }
+  return line.str() + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("linear factors of many vertices linearize like the rest, constants among them",
+          "[factor]") {
+  for (int seed = 0; seed < 12; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    const bool plane = seed % 2 == 0;
+    std::string text;
+    std::vector<Index> vertices;
+    for (Index v = 0; v < 6; ++v) {
+      const bool landmark = v > 3;
+      text += plane      ? landmark ? "VERTEX_XY " : "VERTEX_SE2 "
+              : landmark ? "VERTEX_TRACKXYZ "
+                         : "VERTEX_SE3:QUAT ";
+      text += std::to_string(v);
+      for (int k = 0; k < (plane ? 2 : 3) + (plane && !landmark ? 1 : 0); ++k)
+        text += " " + std::to_string(uniform(random, -1, 1));
+      text += plane || landmark ? "\n" : " 0.1 0.2 0.3 0.9273618495495703\n";
+      vertices.push_back(v);
+    }
+    const Graph bare = graph_of(text);
+    for (const std::string tag : {"EDGE_LINEAR", "EDGE_LINEAR_RELATIVE"}) {
+      shuffle(random, vertices);
+      std::vector<Index> some(vertices.begin(), vertices.begin() + draw(random, 2, 6));
+      std::ranges::sort(some);
+      if (tag == "EDGE_LINEAR_RELATIVE" && some[0] > 3) some = {0, 5};
+      text += linear_line(random, bare, tag, some);
+    }
+    if (seed % 3 == 0) text += "FIX 0\n";
+    check_system(graph_of(text));
+  }
+}
+
+TEST_CASE("a relative linear factor does not notice a motion of the whole, an absolute one does",
+          "[factor]") {
+  const std::string vertices = "VERTEX_SE2 0 1 2 0.3\nVERTEX_SE2 1 2 2.5 0.7\nVERTEX_XY 5 -1 0\n";
+  Random random(1);
+  const Graph bare = graph_of(vertices);
+  const auto held = [](const std::string& text) {
+    const Graph graph = graph_of(text);
+    return factor::make_problem(graph).held;
+  };
+  const std::string relative = linear_line(random, bare, "EDGE_LINEAR_RELATIVE", {0, 1, 2});
+  CHECK(held(vertices + relative) == 0);
+  CHECK(held(vertices + linear_line(random, bare, "EDGE_LINEAR", {0, 1, 2})) == -1);
+  const auto chi2_of = [](const std::string& text) {
+    const Graph graph = graph_of(text);
+    const factor::Problem problem = factor::make_problem(graph);
+    return factor::chi2(problem, factor::file_values(problem));
+  };
+  // Turned by a quarter about the origin.
+  const std::string turned =
+      "VERTEX_SE2 0 -2 1 1.8707963267948966\nVERTEX_SE2 1 -2.5 2 2.2707963267948966\nVERTEX_XY 5 0 "
+      "-1\n";
+  CHECK(chi2_of(turned + relative) == Approx(chi2_of(vertices + relative)).epsilon(1e-12));
+  CHECK(chi2_of(vertices + relative) > 1e-3);
+}
+
+TEST_CASE("linear factors that say too little or of the wrong vertices are refused", "[factor]") {
+  const std::string vertices = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_XY 5 1 1\n";
+  CHECK(message_of(vertices + "EDGE_LINEAR 0 1 5 0 0 0 1 1 0 0 0 0 0 1\n") ==
+        "test.g2o:4: EDGE_LINEAR wants 25 numbers, not 11");
+  CHECK(message_of(vertices + "EDGE_LINEAR_RELATIVE 5 1 0 1 1 0 0 0 0 0 0 1 0 0 1 0 1\n") ==
+        "test.g2o:4: EDGE_LINEAR_RELATIVE wants a pose first, and then vertices that are seen from "
+        "it, of its plane "
+        "or space");
+  CHECK(message_of(vertices + "EDGE_LINEAR 5 0 1 1 0 0 1 3 1\n") ==
+        "test.g2o:4: the information matrix is not positive semidefinite");
+  CHECK(message_of(vertices + "EDGE_LINEAR 5 0 1 1 0 0 1 0 1\n").empty());
 }
 
 TEST_CASE("the first pose is held unless something else holds the graph", "[factor]") {

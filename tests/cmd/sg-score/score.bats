@@ -35,7 +35,7 @@ edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; do
 @test "default columns" {
   [ "$(sg-score walk.g2o | head -1 | tr '\t' ' ')" = "vertices edges log_trees lambda2 dopt sigma_mean sigma_max avg_obs order ec" ]
   [ "$(sg-score --reference walk.g2o walk.g2o walk.g2o | head -1 | tr '\t' ' ')" = \
-    "file vertices edges log_trees lambda2 dopt sigma_mean sigma_max avg_obs matched ate_rmse rpe_rmse order ec" ]
+    "file vertices edges log_trees lambda2 dopt sigma_mean sigma_max avg_obs matched ate_rmse rpe_rmse kld overconfidence order ec" ]
 }
 
 @test "sigmas of a chain by hand" {

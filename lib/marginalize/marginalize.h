@@ -1,0 +1,41 @@
+// Vertices out of a graph, and what their edges knew kept: as factors among the vertices that were their neighbours.
+//
+// The edges of what goes are linearized at the estimates; eliminating it (piece.h) leaves the exact Gaussian of its
+// Markov blanket, which is either kept as it is, as one linear factor, or given to ordinary edges on a sparse topology
+// (topology.h) with the informations nearest to it (recover.h). What is recovered counts as an edge when a neighbour
+// goes in its turn.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lib/marginalize/topology.h"
+
+namespace sg::marginalize {
+
+// What is eliminated together before it is made sparse: every vertex alone, by ascending id; runs of poses without one
+// that stays between them, landmarks alone; all that edges connect.
+enum class Clusters : std::uint8_t { online, batch, global };
+
+struct Rule {
+  bool linear = false;     // leave linear factors: exact
+  Sparsity sparsity = {};  // of what is recovered otherwise
+  Clusters clusters = Clusters::online;
+  bool conservative = false;  // no piece knows more than it did
+};
+
+struct Marginalization {
+  std::vector<bool> vertex, edge;  // n, m: what goes
+  std::string lines;               // what comes, each with its newline
+  Index factors = 0;               // of them edges
+  double divergence = 0;           // of Kullback and Leibler, of all recoveries
+};
+
+// `removed` of every vertex; none is fixed. `progress` is told how many are gone. Throws an input Error at the line of
+// an edge whose vertex cannot be taken out, since no measurement of g2o's could tell of a neighbour.
+Marginalization marginalize(const At& at, const std::vector<bool>& removed, const Rule& rule,
+                            const std::function<void(Index)>& progress = {});
+
+}  // namespace sg::marginalize

@@ -1,0 +1,34 @@
+// Nonlinear factor recovery: of measurements with slopes J_k the informations W_k whose sum is nearest to a Gaussian
+// of covariance S. What is minimized is twice the Kullback-Leibler divergence from it,
+//     sum_k tr(W_k A_k) - log det(Q S) - m,      A_k = J_k S J_k',   Q = sum_k J_k' W_k J_k,   W_k >= 0,
+// convex in the W_k (a determinant maximization problem).
+//
+// Where the stacked J is square, as of a spanning tree, W_k = A_k^-1 is the minimum. Otherwise Newton's method follows
+// the central path of the barrier  -r sum_k log det W_k  down to r = 0; where the result must not know more than there
+// was, Q <= S^-1, with the barrier  -r log det(S^-1 - Q)  as well.
+//
+// Sources: Mazuran, Burgard, Tipaldi, Nonlinear factor recovery for long-term SLAM (2016); Vandenberghe, Boyd, Wu,
+// Determinant maximization with linear matrix inequality constraints (1998).
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace sg::marginalize {
+
+struct Recovery {
+  std::vector<Eigen::MatrixXd> information;  // W_k, positive definite
+  double divergence;                         // of Kullback and Leibler
+};
+
+struct RecoveryOptions {
+  bool conservative = false;  // Q <= S^-1
+  double penalty = 0;         // times sum_k tr(W_k A_k) is minimized, too: how dear pairs are
+};
+
+// slopes: J_k (d_k x m), of which each has full rank, as all of them together. covariance: S (m x m), regular.
+Recovery recover(std::span<const Eigen::MatrixXd> slopes, const Eigen::MatrixXd& covariance,
+                 const RecoveryOptions& options = {});
+
+}  // namespace sg::marginalize

@@ -1,0 +1,277 @@
+#include "lib/marginalize/topology.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "lib/marginalize/recover.h"
+
+namespace sg::marginalize {
+namespace {
+
+using Eigen::LLT;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::array<std::string_view, 5> names{"dense", "tree", "subgraph", "l1", "seif"};
+
+// What is added to the information of a direction that nothing is known of, as a part of its diagonal.
+constexpr double next_to_nothing = 1e-9;
+
+bool is_pose(const At& at, Index v) {
+  return at.problem.graph->role(v) == graph::Role::pose;
+}
+
+double log_det(const MatrixXd& matrix) {
+  return 2 * MatrixXd(LLT<MatrixXd>(matrix).matrixL()).diagonal().array().log().sum();
+}
+
+// A slope in the steps of a measurement's own vertices, in those of the blanket.
+MatrixXd spread(const At& at, const Measurable& of, const Blanket& blanket) {
+  const MatrixXd own = slope(at, of);
+  MatrixXd all = MatrixXd::Zero(own.rows(), blanket.information.rows());
+  int column = 0;
+  for (const Index v : {of.first, of.second}) {
+    if (v < 0) continue;
+    const auto place = std::ranges::find(blanket.vertices, v) - blanket.vertices.begin();
+    if (blanket.start[place] >= 0)
+      all.middleCols(blanket.start[place], at.dim(v)) = own.middleCols(column, at.dim(v));
+    column += at.dim(v);
+  }
+  return all;
+}
+
+// A component of vertices, by union-find; -1 is the world.
+struct Parts {
+  std::vector<Index> parent;
+
+  Index find(Index k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+  }
+  bool join(Index a, Index b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return false;
+    parent[a] = b;
+    return true;
+  }
+};
+
+// By how much a tree is wrong about a pair: the divergence of the pair's Gaussian from that which the tree has.
+double surprise(const Pair& pair, const MatrixXd& tree_covariance) {
+  const MatrixXd B = pair.slope * tree_covariance * pair.slope.transpose();
+  const MatrixXd ratio = LLT<MatrixXd>(B).solve(pair.covariance);
+  return (ratio.trace() - log_det(pair.covariance) + log_det(B) - static_cast<double>(B.rows())) /
+         2;
+}
+
+std::vector<Index> others(const std::vector<Pair>& pairs, const Tree& tree) {
+  std::vector<Index> result;
+  for (Index k = 0; k < std::ssize(pairs); ++k) {
+    if (pairs[k].of.second >= 0 && !std::ranges::binary_search(tree.pairs, k)) result.push_back(k);
+  }
+  return result;
+}
+
+std::vector<MatrixXd> slopes_of(const std::vector<Pair>& pairs, const std::vector<Index>& which) {
+  std::vector<MatrixXd> slopes;
+  for (const Index k : which) slopes.push_back(pairs[k].slope);
+  return slopes;
+}
+
+// The further pairs that a tree is most wrong about.
+std::vector<Index> most_informative(const Blanket& blanket, const std::vector<Pair>& pairs,
+                                    const Tree& tree, Index count) {
+  std::vector<Index> further = others(pairs, tree);
+  count = std::min<Index>(count, static_cast<Index>(further.size()));
+  MatrixXd Q = MatrixXd::Zero(blanket.covariance.rows(), blanket.covariance.cols());
+  for (const Index k : tree.pairs)
+    Q += pairs[k].slope.transpose() * LLT<MatrixXd>(pairs[k].covariance).solve(pairs[k].slope);
+  const MatrixXd covariance = LLT<MatrixXd>(Q).solve(MatrixXd::Identity(Q.rows(), Q.cols()));
+  std::vector<double> of(pairs.size(), 0);
+  for (const Index k : further) of[k] = surprise(pairs[k], covariance);
+  std::ranges::stable_sort(further, std::greater(), [&](Index k) { return of[k]; });
+  further.resize(count);
+  return further;
+}
+
+// Huang, Kaess, Leonard, Consistent sparsification for graph optimization (2013): the pairs that a penalty on all of
+// them leaves, here on the trace of their information, and never with more information than there was.
+std::vector<Index> penalized(const Blanket& blanket, const std::vector<Pair>& pairs,
+                             const Tree& tree, double penalty) {
+  std::vector<Index> all(pairs.size());
+  std::iota(all.begin(), all.end(), 0);
+  const Recovery recovered = recover(slopes_of(pairs, all), blanket.covariance,
+                                     {.conservative = true, .penalty = penalty});
+  std::vector<Index> result;
+  for (const Index k : others(pairs, tree)) {
+    const double share = (recovered.information[k] * pairs[k].covariance).trace();
+    if (share > 1e-3 * static_cast<double>(pairs[k].covariance.rows())) result.push_back(k);
+  }
+  return result;
+}
+
+// What is left of a link of the information matrix beside what its two ends know: its largest correlation.
+double link(const At& at, const Piece& piece, Index u, Index v) {
+  const std::vector<int> start = starts(at, piece.vertices);
+  const auto block = [&](Index a, Index b) -> MatrixXd {
+    const auto place = [&](Index x) {
+      return start[std::ranges::find(piece.vertices, x) - piece.vertices.begin()];
+    };
+    return piece.information.block(place(a), place(b), at.dim(a), at.dim(b));
+  };
+  const auto root = [&](Index a) {
+    MatrixXd own = block(a, a);
+    own.diagonal() *= 1 + next_to_nothing;
+    return LLT<MatrixXd>(own);
+  };
+  const MatrixXd half = root(u).matrixL().solve(block(u, v));
+  const MatrixXd whole = root(v).matrixL().solve(half.transpose());
+  return std::sqrt(
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(whole * whole.transpose()).eigenvalues().maxCoeff());
+}
+
+// Thrun, Liu, Koller, Ng, Ghahramani, Durrant-Whyte, Simultaneous localization and mapping with sparse extended
+// information filters (2004): weak links of the information matrix go.
+std::vector<Index> strong_links(const At& at, const Piece& piece, const std::vector<Pair>& pairs,
+                                const Tree& tree, double threshold) {
+  std::vector<Index> result = others(pairs, tree);
+  std::erase_if(result, [&](Index k) {
+    return link(at, piece, pairs[k].of.first, pairs[k].of.second) < threshold;
+  });
+  return result;
+}
+
+}  // namespace
+
+std::optional<Topology> topology(std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Topology>(found - names.begin());
+}
+
+std::vector<std::string> topology_names() {
+  return {names.begin(), names.end()};
+}
+
+Blanket blanket(const At& at, const Piece& piece) {
+  Blanket result;
+  result.vertices = piece.vertices;
+  const std::vector<int> start = starts(at, piece.vertices);
+  // The first pose, or the first of all where there is none.
+  const auto pose = std::ranges::find_if(piece.vertices, [&](Index v) { return is_pose(at, v); });
+  const auto held = piece.absolute                 ? std::ssize(piece.vertices)
+                    : pose == piece.vertices.end() ? 0
+                                                   : pose - piece.vertices.begin();
+  std::vector<int>& rest = result.scalars;
+  for (Index k = 0; k < std::ssize(piece.vertices); ++k) {
+    result.start.push_back(k == held ? -1 : static_cast<int>(rest.size()));
+    for (int i = start[k]; k != held && i < start[k + 1]; ++i) rest.push_back(i);
+  }
+  result.information = piece.information(rest, rest);
+  result.gradient = piece.gradient(rest);
+  VectorXd scale = result.information.diagonal();
+  const double most = scale.size() > 0 ? scale.maxCoeff() : 0;
+  for (double& s : scale) s = 1 / std::sqrt(std::max(s, 1e-12 * most));
+  const MatrixXd scaled = scale.asDiagonal() * result.information * scale.asDiagonal();
+  const LLT<MatrixXd> cholesky(scaled);
+  result.regular = cholesky.info() == Eigen::Success && cholesky.rcond() > next_to_nothing;
+  if (!result.regular)
+    result.information.diagonal() += next_to_nothing * scale.cwiseAbs2().cwiseInverse();
+  const auto m = result.information.rows();
+  const MatrixXd again = scale.asDiagonal() * result.information * scale.asDiagonal();
+  result.covariance = scale.asDiagonal() * LLT<MatrixXd>(again).solve(MatrixXd::Identity(m, m)) *
+                      scale.asDiagonal();
+  result.covariance = (result.covariance + result.covariance.transpose().eval()) / 2;
+  return result;
+}
+
+std::vector<Pair> candidate_pairs(const At& at, const Piece& piece, const Blanket& blanket) {
+  std::vector<Pair> pairs;
+  const auto add = [&](const std::optional<Measurable>& of) {
+    if (!of) return;
+    const MatrixXd J = spread(at, *of, blanket);
+    pairs.push_back({*of, J, J * blanket.covariance * J.transpose()});
+  };
+  const bool poses = std::ranges::any_of(piece.vertices, [&](Index v) { return is_pose(at, v); });
+  for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+    if (piece.absolute) add(prior(at, piece.vertices[i]));
+    for (std::size_t j = i + 1; j < piece.vertices.size(); ++j) {
+      const Index u = piece.vertices[i], v = piece.vertices[j];
+      if (poses && !is_pose(at, u) && !is_pose(at, v)) continue;
+      add(between(at, u, v));
+    }
+  }
+  return pairs;
+}
+
+Tree spanning_tree(const At& at, const Blanket& blanket, const std::vector<Pair>& pairs,
+                   bool absolute) {
+  const auto number = [&](Index v) {
+    return v < 0 ? static_cast<Index>(blanket.vertices.size())
+                 : static_cast<Index>(std::ranges::find(blanket.vertices, v) -
+                                      blanket.vertices.begin());
+  };
+  const bool poses = std::ranges::any_of(blanket.vertices, [&](Index v) { return is_pose(at, v); });
+  const auto is_leaf = [&](Index v) { return poses && v >= 0 && !is_pose(at, v); };
+  std::vector<Index> order(pairs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<double> cost;
+  for (const Pair& pair : pairs) cost.push_back(log_det(pair.covariance));
+  std::ranges::stable_sort(order, {}, [&](Index k) { return cost[k]; });
+
+  Tree tree;
+  Parts parts{std::vector<Index>(blanket.vertices.size() + 1)};
+  std::iota(parts.parent.begin(), parts.parent.end(), 0);
+  std::vector<bool> leaf(blanket.vertices.size() + 1, false);
+  // What can be passed through first, then the leaves.
+  for (const bool leaves : {false, true}) {
+    for (const Index k : order) {
+      const auto [type, u, v] = pairs[k].of;
+      const Index end = is_leaf(u) ? u : is_leaf(v) ? v : -1;
+      if ((end >= 0) != leaves || (leaves && leaf[number(end)])) continue;
+      if (!parts.join(number(u), number(v))) continue;
+      if (leaves) leaf[number(end)] = true;
+      tree.pairs.push_back(k);
+    }
+  }
+  const Index root = absolute ? number(-1) : 0;
+  for (Index k = 0; k < std::ssize(blanket.vertices); ++k) {
+    if (parts.find(k) != parts.find(root)) tree.missing = blanket.vertices[k];
+  }
+  std::ranges::sort(tree.pairs);
+  return tree;
+}
+
+std::vector<Index> chosen_pairs(const At& at, const Piece& piece, const Blanket& blanket,
+                                const std::vector<Pair>& pairs, const Tree& tree,
+                                const Sparsity& sparsity) {
+  std::vector<Index> further;
+  const auto half = static_cast<Index>(tree.pairs.size() + 1) / 2;
+  switch (sparsity.topology) {
+    case Topology::tree:
+      break;
+    case Topology::dense:
+      further = others(pairs, tree);
+      break;
+    case Topology::subgraph:
+      further = most_informative(blanket, pairs, tree, sparsity.extra < 0 ? half : sparsity.extra);
+      break;
+    case Topology::l1:
+      further = penalized(blanket, pairs, tree, sparsity.penalty);
+      break;
+    case Topology::seif:
+      further = strong_links(at, piece, pairs, tree, sparsity.threshold);
+      break;
+  }
+  std::vector<Index> chosen = tree.pairs;
+  chosen.insert(chosen.end(), further.begin(), further.end());
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+}  // namespace sg::marginalize
