@@ -1,8 +1,9 @@
-// sg-cut: keep a part of a graph: steps, poses, ids, or what is connected.
+// sg-cut: keep a part of a graph: steps, poses, ids, what is connected, or edges by what is true of them.
 #include <algorithm>
 
 #include "cmd/common/command.h"
 #include "cmd/common/options.h"
+#include "cmd/cut/where.h"
 #include "lib/graph/cut.h"
 #include "lib/text/words.h"
 
@@ -19,6 +20,7 @@ struct Options {
   std::optional<Id> component;
   bool largest = false;
   std::vector<std::string> ids;
+  std::string where;
 };
 
 // "A" or "A:B"; a usage Error for anything else.
@@ -67,6 +69,9 @@ graph::Part part(const Graph& graph, const Options& options) {
   if (!options.range.empty()) return range_of_poses(graph, options.range);
   if (options.component) return component_of(graph, *options.component);
   if (options.largest) return graph::largest_component(graph);
+  if (!options.where.empty())
+    return {std::vector<bool>(graph.vertices(), true),
+            cmd::edges_where(graph, cmd::parse_condition(options.where))};
   return ranges_of_ids(graph, options.ids);
 }
 
@@ -76,10 +81,12 @@ void check_call(const cmd::Command& command, const Options& options) {
                     {"--range", "poses by index"},
                     {"--component", "what is connected to a vertex"},
                     {"--largest", "the largest connected part"},
-                    {"--ids", "vertices by id"}},
+                    {"--ids", "vertices by id"},
+                    {"--where", "edges by what is true of them"}},
                    "which part?");
   if (!options.poses) cmd::refuse(command.app, {"--min-obs"}, "without --poses");
   if (!options.range.empty()) parse_range("--range", options.range);
+  if (!options.where.empty()) cmd::parse_condition(options.where);
   for (const auto& text : options.ids) parse_range("--ids", text);
 }
 
@@ -126,6 +133,10 @@ void add_options(cmd::Command& command, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("ID,FIRST:LAST,...");
+  app.add_option("--where", options.where,
+                 "Keep all vertices, and the edges of which CONDITION\nholds: columns " +
+                     cmd::where_columns())
+      ->option_text("CONDITION");
   cmd::add_entry(app, options.min_obs, "With --poses: a landmark");
   cmd::add_filter_output(command, options.output);
 }
