@@ -1,9 +1,10 @@
-// sg-cut: keep a part of a graph: steps, poses, ids, tags, or what is connected.
+// sg-cut: keep a part of a graph: steps, poses, ids, tags, what is connected, or edges by what is true of them.
 #include <algorithm>
 
 #include "cmd/common/command.h"
 #include "cmd/common/options.h"
 #include "cmd/common/ranges.h"
+#include "cmd/cut/where.h"
 #include "lib/graph/cut.h"
 #include "lib/text/nearest.h"
 
@@ -21,6 +22,7 @@ struct Options {
   bool largest = false;
   std::vector<std::string> ids;
   std::vector<std::string> tags, without;
+  std::string where;
 };
 
 graph::Part range_of_poses(const Graph& graph, const std::string& text) {
@@ -76,6 +78,9 @@ graph::Part part(const Graph& graph, const Options& options) {
   if (!options.tags.empty()) return graph::of_types(graph, types_of(graph, "--tags", options.tags));
   if (!options.without.empty())
     return graph::without_types(graph, types_of(graph, "--without", options.without));
+  if (!options.where.empty())
+    return {std::vector<bool>(graph.vertices(), true),
+            cmd::edges_where(graph, cmd::parse_condition(options.where))};
   return graph::of_ids(graph, cmd::ranges_of_vertices(graph, "--ids", options.ids));
 }
 
@@ -87,10 +92,12 @@ void check_call(const cmd::Command& command, const Options& options) {
                     {"--largest", "the largest connected part"},
                     {"--ids", "vertices by id"},
                     {"--tags", "lines by tag"},
-                    {"--without", "lines of other tags"}},
+                    {"--without", "lines of other tags"},
+                    {"--where", "edges by what is true of them"}},
                    "which part?");
   if (!options.poses) cmd::refuse(command.app, {"--min-obs"}, "without --poses");
   if (!options.range.empty()) cmd::parse_range("--range", options.range);
+  if (!options.where.empty()) cmd::parse_condition(options.where);
   cmd::parse_ranges("--ids", options.ids);
 }
 
@@ -147,6 +154,10 @@ void add_options(cmd::Command& command, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("TAG,...");
+  app.add_option("--where", options.where,
+                 "Keep all vertices, and the edges of which CONDITION\nholds: columns " +
+                     cmd::where_columns())
+      ->option_text("CONDITION");
   cmd::add_entry(app, options.min_obs, "With --poses: a landmark");
   cmd::add_filter_output(command, options.output);
 }

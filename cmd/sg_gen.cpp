@@ -1,8 +1,8 @@
 // sg-gen: generate the graph of a world; with --truth, the same without noise, too.
-#include <filesystem>
 #include <map>
 
 #include "cmd/common/command.h"
+#include "cmd/common/same_file.h"
 #include "cmd/gen/worlds.h"
 #include "lib/text/nearest.h"
 
@@ -29,17 +29,8 @@ void add_files(CLI::App& app, Files& files) {
   cmd::add_filter_output(app, files.output);
 }
 
-bool same_file(const std::string& a, const std::string& b) {
-  namespace fs = std::filesystem;
-  const auto whole = [](const std::string& path) {
-    return fs::weakly_canonical(fs::absolute(path));
-  };
-  if (a == "-" || b.empty() || b == "-") return a == "-" && (b.empty() || b == "-");
-  return whole(a) == whole(b) && (!fs::exists(a) || fs::is_regular_file(a));
-}
-
 void generate(const cmd::Command& command, const Files& files, const gen::Maker& maker) {
-  if (!files.truth.empty() && same_file(files.truth, files.output.path))
+  if (!files.truth.empty() && cmd::same_file(files.truth, files.output.path))
     throw text::usage_error("--truth and -o are one file, '" + files.truth +
                             "': each graph needs its own");
   cmd::stage("generate");

@@ -13,7 +13,11 @@
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
+#include "cmd/common/same_file.h"
 #include "cmd/common/table.h"
+#include "cmd/solve/certificate.h"
+#include "cmd/solve/residuals.h"
+#include "cmd/solve/robust.h"
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/batch.h"
@@ -61,12 +65,16 @@ struct Options {
   bool gauss_newton = false;
   std::optional<int> iterations;  // as many, whether that is enough or not
   double tolerance = 1e-9;
-  std::string kernel;
+  cmd::RobustOptions robust;
   cmd::MethodOptions method;
   std::string backend{solve::backends().front().name};
   int threads = tbb::info::default_concurrency();
   int runs = 0;
   bool chi2 = false;
+  bool residuals = false;
+  bool certify = false;
+  std::string weights;  // FILE, or empty
+  std::vector<Id> fixed;
   bool from_edges = false;
   bool keep = false;
 };
@@ -87,8 +95,14 @@ void add_options(cmd::Command& command, Options& options) {
                  "Least relative change of chi-square (default: 1e-9)")
       ->option_text("X")
       ->check(cmd::number(0));
-  app.add_option("--kernel", options.kernel, "Robust kernel huber or cauchy, of width W")
-      ->option_text("NAME:W");
+  cmd::add_robust(app, options.robust);
+  app.add_option("--weights", options.weights, "Write a table, too: what every edge counted")
+      ->option_text("FILE");
+  app.add_option("--fix", options.fixed, "Take these vertices for constants")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
+      ->option_text("ID,...");
   cmd::add_methods(command, options.method);
   app.add_option("--backend", options.backend, "Eliminate by " + solve::backend_names())
       ->check(cmd::suggests(text::names_of(solve::backends())))
@@ -99,39 +113,28 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_flag("--init", options.from_edges, "Start from the edges alone, not from the file");
   app.add_flag("--keep", options.keep, "Write the graph even if it did not converge");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
+  app.add_flag("--residuals", options.residuals,
+               "Print a table: a row an edge of the graph as it is,\nthe worst first");
+  app.add_flag("--certify", options.certify,
+               "Print a table: whether the graph as it is is the\nglobal optimum");
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
       ->transform(cmd::whole(1));
   cmd::add_filter_output(command, options.output);
-  cmd::add_table(command, options.table, time_columns);
+  cmd::add_table(command, options.table,
+                 {{"", cmd::headings(time_columns)},
+                  {"With --residuals and --weights:", cmd::headings(cmd::residual_columns)},
+                  {"With --certify:", cmd::headings(cmd::certificate_columns)}});
 }
 
-factor::Kernel parse_kernel(const std::string& text) {
-  if (text.empty()) return {};
-  const auto colon = text.find(':');
-  const std::string name = text.substr(0, colon);
-  const auto width =
-      text::parse<double>(colon == text.npos ? "" : std::string_view(text).substr(colon + 1));
-  if (width && *width > 0) {
-    if (name == "huber") return {factor::KernelShape::huber, *width};
-    if (name == "cauchy") return {factor::KernelShape::cauchy, *width};
-  }
-  throw text::usage_error("--kernel wants huber:W or cauchy:W with W above 0, not '" + text + "'");
-}
-
-solve::BatchOptions batch_options(const Options& options) {
+solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
   solve::BatchOptions batch;
   batch.method = options.gauss_newton ? solve::BatchMethod::gauss_newton
                                       : solve::BatchMethod::levenberg_marquardt;
   batch.iterations = options.iterations.value_or(most_iterations);
   batch.tolerance = options.tolerance;
-  batch.kernel = parse_kernel(options.kernel);
+  batch.loss = cmd::loss(options.robust, graph);
   return batch;
-}
-
-cmd::NamedOrder named_order(const Options& options, const Graph& graph) {
-  return cmd::named_order(options.method, graph,
-                          graph::graph_pattern(graph));  // without the gauge's row
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -172,7 +175,7 @@ Timing timed(const Options& options, const factor::Problem& problem, const facto
 void print_times(const Options& options, const factor::Problem& problem,
                  const factor::Values& values, cmd::Table<Timing>& table) {
   factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, parse_kernel(options.kernel), system);
+  factor::linearize(problem, values, cmd::loss(options.robust, *problem.graph), system);
   const graph::GraphPattern variables =
       graph::graph_pattern(*problem.graph);  // without the gauge's row
   cmd::finish_first();
@@ -187,7 +190,8 @@ void print_times(const Options& options, const factor::Problem& problem,
 // The number alone; of several files, each after the file's name.
 void print_chi2(const Options& options, const factor::Problem& problem,
                 const factor::Values& values, cmd::Output& output) {
-  const double chi2 = factor::finite_chi2(problem, values, parse_kernel(options.kernel));
+  const double chi2 =
+      factor::finite_chi2(problem, values, cmd::loss(options.robust, *problem.graph));
   if (options.inputs.paths.size() > 1) output.write(problem.graph->file + "\t");
   output.write(text::format_number(chi2) + "\n");
 }
@@ -243,59 +247,134 @@ void check_converged(const cmd::Command& command, const Options& options,
       ", --kernel cauchy:1, or more iterations (-i N)");
 }
 
+// What every edge counts at the estimates, as a table.
+void print_residuals(const Options& options, const std::string& path,
+                     const factor::Problem& problem, const factor::Values& values,
+                     const factor::Loss& loss) {
+  cmd::Output output(path);
+  cmd::Table table(options.table, cmd::residual_columns, {}, output);
+  cmd::print_residuals(problem, values, loss, table);
+  output.commit();
+}
+
+void print_certificate(const cmd::Command& command, const Options& options,
+                       const factor::Problem& problem, const factor::Values& values) {
+  cmd::Output output(options.output.path);
+  cmd::Table table(options.table, cmd::certificate_columns, {}, output);
+  cmd::stage("certify");
+  const solve::Certificate certificate = solve::certify(problem, values);
+  table.row(certificate);
+  cmd::warn_of_model(command, certificate);
+  output.commit();
+}
+
+solve::LinearSolver planned(const Options& options, const factor::Problem& problem,
+                            const factor::LinearSystem& system) {
+  graph::GraphPattern variables = problem.variables;
+  graph::Lists<>& rows = variables.pattern.rows;
+  if (problem.held >= 0) rows.begin.pop_back();  // the order is that without the gauge's row
+  rows.items.resize(rows.begin.back());
+  const graph::Order order = cmd::named_order(options.method, *problem.graph, variables).order;
+  return solve::find_backend(options.backend).make(system, order, options.threads);
+}
+
+void warn_of_scale(const cmd::Command& command) {
+  cmd::warn(command,
+            "nothing fixes the scale: it stays near the start's (FIX a second pose, or add an edge "
+            "that measures a length)");
+}
+
 void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem,
            factor::Values values) {
   const auto begin = std::chrono::steady_clock::now();
+  const Graph& graph = *problem.graph;
+  const auto plan = [&](const factor::Problem& part, const factor::LinearSystem& system) {
+    return planned(options, part, system);
+  };
   cmd::stage("order");
-  const graph::Order order = named_order(options, *problem.graph).order;
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
-  solve::BatchOptions batch = batch_options(options);
+  factor::LinearSystem system;
+  solve::LinearSolver solver;
+  if (!options.robust.gnc) {
+    system = factor::make_linear_system(problem);
+    solver = plan(problem, system);
+  }
+  solve::BatchOptions batch = batch_options(options, graph);
   batch.stop = cmd::interrupted;
   cmd::finish_first();
   cmd::stage("solve", batch.iterations);
   if (command.verbose) {
     cmd::print_error("iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n");
-    print_iteration({0, factor::chi2(problem, values, batch.kernel), 0, 0, true, 0, 0});
+    print_iteration({0, factor::chi2(problem, values, batch.loss), 0, 0, true, 0, 0});
   }
   const auto report = [&](const solve::Iteration& iteration) {
     cmd::progress(iteration.number);
     if (command.verbose) print_iteration(iteration);
   };
-  const solve::BatchResult result = solve::optimize(problem, system, solver, batch, values, report);
+  const auto [result, weight] =
+      options.robust.gnc
+          ? solve::graduate(problem, plan, cmd::gnc_options(options.robust, problem, batch), values,
+                            report)
+          : solve::GncResult{solve::optimize(problem, system, solver, batch, values, report), {}};
   check_converged(command, options, result);
-  if (result.scale_free) {
-    cmd::warn(
-        command,
-        "nothing fixes the scale: it stays near the start's (FIX a second pose, or add an edge "
-        "that measures a length)");
+  if (result.scale_free) warn_of_scale(command);
+  if (!options.weights.empty()) {
+    batch.loss.share = weight;
+    print_residuals(options, options.weights, problem, values, batch.loss);
   }
-  cmd::write_filtered(command, options.output, *problem.graph,
+  cmd::write_filtered(command, options.output, graph,
                       cmd::estimate_changes(problem, values, moved(problem)));
   tell(command, result, seconds_since(begin));
+}
+
+void check_files(const Options& options) {
+  if (options.weights.empty()) return;
+  if (cmd::same_file(options.weights, options.output.path))
+    throw text::usage_error("--weights and -o are one file, '" + options.weights +
+                            "': the table and the graph need each its own");
+  cmd::check_output(options.weights);
 }
 
 void check_call(const cmd::Command& command, const Options& options) {
   const CLI::App& app = command.app;
   cmd::check_form(app);
-  cmd::at_most_one(app, {{"--chi2", "prints the chi-square"}, {"--time", "times eliminations"}});
-  const std::initializer_list<const char*> optimizing{"--gn", "-i", "--tolerance", "--keep",
-                                                      "--no-trace-comment"};
+  cmd::check_robust(app, options.robust);
+  cmd::at_most_one(app, {{"--chi2", "prints the chi-square"},
+                         {"--residuals", "prints that of every edge"},
+                         {"--certify", "tells whether it is the least"},
+                         {"--time", "times eliminations"}});
+  const std::initializer_list<const char*> optimizing{
+      "--gn", "-i", "--tolerance", "--keep", "--no-trace-comment", "--gnc", "--weights"};
+  const std::initializer_list<const char*> eliminating{"-m", "--seed", "--backend", "-j"};
   if (options.chi2) cmd::refuse(app, optimizing, "with --chi2, which does not optimize");
+  if (options.residuals) cmd::refuse(app, optimizing, "with --residuals, which does not optimize");
+  if (options.certify) cmd::refuse(app, optimizing, "with --certify, which does not optimize");
   if (options.runs > 0) cmd::refuse(app, optimizing, "with --time, which does not optimize");
-  if (options.chi2)
-    cmd::refuse(app, {"-m", "--seed", "--backend", "-j"}, "with --chi2, which eliminates nothing");
-  if (options.runs == 0) cmd::refuse_table(app, "without --time");
+  if (options.chi2) cmd::refuse(app, eliminating, "with --chi2, which eliminates nothing");
+  if (options.residuals)
+    cmd::refuse(app, eliminating, "with --residuals, which eliminates nothing");
+  if (options.certify)
+    cmd::refuse(app, {"-m", "--seed", "--backend", "-j", "--kernel"}, "with --certify");
+  if (options.runs == 0 && !options.residuals && !options.certify && options.weights.empty())
+    cmd::refuse_table(app, "without --time, --residuals, --weights or --certify");
   if (options.runs == 0 && options.method.names.size() > 1)
     throw text::usage_error("-m: one ordering to optimize by; several are compared by --time");
   if (!options.chi2 && options.runs == 0 && options.inputs.paths.size() > 1)
     throw text::usage_error(
         "one graph to optimize, since one comes out; several files are for --time and --chi2");
+  check_files(options);
+}
+
+// The vertices that the call has for constants, beside the file's.
+void fix(Graph& graph, const std::vector<Id>& ids) {
+  for (const Id id : ids) {
+    const auto v = graph::find_vertex(graph, id);
+    if (!v) throw text::usage_error("--fix: the graph has no vertex " + std::to_string(id));
+    graph.fixed[*v] = true;
+  }
 }
 
 void run(const cmd::Command& command, const Options& options) {
-  parse_kernel(options.kernel);  // a wrong call is told before a long read
-  check_call(command, options);
+  check_call(command, options);  // a wrong call is told before a long read
   solve::find_backend(options.backend);
   cmd::check(options.method);
   solve::kernels();
@@ -309,17 +388,24 @@ void run(const cmd::Command& command, const Options& options) {
     times.emplace(options.table, time_columns, given, *output);
   }
   for (const std::string& path : options.inputs.paths) {
-    const Graph graph = cmd::read(options.inputs, path);
+    Graph graph = cmd::read(options.inputs, path);
+    fix(graph, options.fixed);
     cmd::stage("start");
     const factor::Problem problem = factor::make_problem(graph);
     factor::Values values =
         options.from_edges ? factor::initial_values(problem) : factor::start_values(problem);
-    if (options.chi2)
+    if (options.chi2) {
       print_chi2(options, problem, values, *output);
-    else if (times)
+    } else if (options.residuals) {
+      print_residuals(options, options.output.path, problem, values,
+                      cmd::loss(options.robust, graph));
+    } else if (options.certify) {
+      print_certificate(command, options, problem, values);
+    } else if (times) {
       print_times(options, problem, values, *times);
-    else
+    } else {
       solve(command, options, problem, std::move(values));
+    }
   }
   if (output) output->commit();
 }

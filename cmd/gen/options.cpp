@@ -109,6 +109,12 @@ void add_streets(CLI::App& app, world::Streets& streets) {
             40'000);
 }
 
+void add_outliers(CLI::App& app, double& share, const std::string& of) {
+  constexpr double most = 0.99;
+  add_number(app, "--outliers", share, "Share of all " + of + " that are false", "P")
+      ->check(cmd::number(0, most));
+}
+
 void add_draw(CLI::App& app, world::Guess& guess, std::uint64_t& seed) {
   add_word<world::Guess>(app, "--guess", guess, "Where poses start: odometry, truth", "WHERE",
                          {{"odometry", world::Guess::odometry}, {"truth", world::Guess::truth}});

@@ -69,6 +69,9 @@ void add_triangulation(CLI::App& app, world::Triangulation& landmark);
 
 void add_streets(CLI::App& app, world::Streets& streets);
 
+// --outliers, of what the world has: closures or observations.
+void add_outliers(CLI::App& app, double& share, const std::string& of);
+
 // --guess and --seed, with which every world's options end.
 void add_draw(CLI::App& app, world::Guess& guess, std::uint64_t& seed);
 
@@ -78,6 +81,7 @@ void add_landmark_noise(CLI::App& app, World& world) {
   add_length(app, "--noise-trans", world.odometry_noise.translation, "Odometry noise, metres");
   add_length(app, "--noise-rot", world.odometry_noise.rotation, "Odometry noise, radians");
   add_size(app, "--noise-guess", world.guess_noise, "Of the landmarks' estimates, metres");
+  add_outliers(app, world.outliers, "observations");
   add_draw(app, world.guess, world.seed);
 }
 // The end of a world of loop closures, which are as exact as its odometry.
@@ -85,6 +89,7 @@ template <class World>
 void add_edge_noise(CLI::App& app, World& world) {
   add_length(app, "--noise-trans", world.noise.translation, "Noise of every edge, metres");
   add_length(app, "--noise-rot", world.noise.rotation, "Noise of every edge, radians");
+  add_outliers(app, world.outliers, "loop closures");
   add_draw(app, world.guess, world.seed);
 }
 

@@ -51,12 +51,12 @@ void clear_held(const Problem& problem, Index e, double* block) {
   }
 }
 
-// Scales the block by the root of the kernel's weight.
-void reweigh(const Kernel& kernel, int dim, int columns, double* block) {
+// Scales the block by the root of the edge's weight.
+void reweigh(const Loss& loss, Index e, int dim, int columns, double* block) {
   const double* const b = block + dim * columns;
   double s = 0;
   for (int k = 0; k < dim; ++k) s += b[k] * b[k];
-  const double scale = std::sqrt(weight(kernel, s));
+  const double scale = std::sqrt(weight(loss, e, s));
   std::for_each(block, block + dim * (columns + 1), [&](double& number) { number *= scale; });
 }
 
@@ -103,7 +103,7 @@ LinearSystem make_linear_system(const Problem& problem) {
   return system;
 }
 
-void linearize_row(const Problem& problem, const Values& values, const Kernel& kernel, Index r,
+void linearize_row(const Problem& problem, const Values& values, const Loss& loss, Index r,
                    double* block) {
   const graph::Pattern& pattern = problem.variables.pattern;
   assert(0 <= r && r < pattern.rows.size());
@@ -128,8 +128,7 @@ void linearize_row(const Problem& problem, const Values& values, const Kernel& k
   if (std::find(variables.begin(), variables.end(), problem.held) != variables.end()) {
     clear_held(problem, r, block);
   }
-  if (kernel.shape != KernelShape::none)
-    reweigh(kernel, dim_of(problem, r), columns(pattern, r), block);
+  if (!is_plain(loss)) reweigh(loss, r, dim_of(problem, r), columns(pattern, r), block);
 }
 
 void check_row(const Problem& problem, Index r, std::span<const double> block) {
@@ -143,13 +142,13 @@ void check_row(const Problem& problem, Index r, std::span<const double> block) {
              : " has no derivative at this estimate");
 }
 
-void linearize(const Problem& problem, const Values& values, const Kernel& kernel,
+void linearize(const Problem& problem, const Values& values, const Loss& loss,
                LinearSystem& system) {
   assert(is_laid_out(system) && system.pattern->dim == problem.variables.pattern.dim);
   using Range = tbb::blocked_range<Index>;
   tbb::parallel_for(Range(0, system.pattern->rows.size(), 512), [&](const Range& range) {
     for (Index r = range.begin(); r != range.end(); ++r) {
-      linearize_row(problem, values, kernel, r, system.block(r));
+      linearize_row(problem, values, loss, r, system.block(r));
     }
   });
   for (Index r = 0; r < problem.graph->edges(); ++r)  // the first one in the file is told
@@ -167,10 +166,10 @@ double edge_chi2(const Problem& problem, const Values& values, Index e) {
   return sum;
 }
 
-double chi2(const Problem& problem, const Values& values, const Kernel& kernel) {
+double chi2(const Problem& problem, const Values& values, const Loss& loss) {
   double sum = 0;
   for (Index e = 0; e < problem.graph->edges(); ++e) {
-    sum += rho(kernel, edge_chi2(problem, values, e));
+    sum += rho(loss, e, edge_chi2(problem, values, e));
   }
   return sum;
 }
@@ -182,10 +181,10 @@ double finite_edge_chi2(const Problem& problem, const Values& values, Index e) {
   return value;
 }
 
-double finite_chi2(const Problem& problem, const Values& values, const Kernel& kernel) {
+double finite_chi2(const Problem& problem, const Values& values, const Loss& loss) {
   double sum = 0;
   for (Index e = 0; e < problem.graph->edges(); ++e)
-    sum += rho(kernel, finite_edge_chi2(problem, values, e));
+    sum += rho(loss, e, finite_edge_chi2(problem, values, e));
   return sum;
 }
 

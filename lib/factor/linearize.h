@@ -39,9 +39,8 @@ LinearSystem make_linear_system(const Problem& problem);
 LinearSystem make_linear_system(const Problem&&) = delete;
 
 // Row r of the system at `values`: writes its block, height x (columns + 1) numbers. Rows beyond
-// the edges: the gauge's. Thread-safe; allocates nothing but
-// for linear factors.
-void linearize_row(const Problem& problem, const Values& values, const Kernel& kernel, Index r,
+// the edges: the gauge's. Thread-safe; allocates nothing but for linear factors.
+void linearize_row(const Problem& problem, const Values& values, const Loss& loss, Index r,
                    double* block);
 
 // Throws a computation Error at the line of edge r if a number of its block is not finite (where an
@@ -51,17 +50,17 @@ void check_row(const Problem& problem, Index r, std::span<const double> block);
 constexpr double largest_entry = 1e140;
 
 // All rows, in parallel, and checked.
-void linearize(const Problem& problem, const Values& values, const Kernel& kernel,
+void linearize(const Problem& problem, const Values& values, const Loss& loss,
                LinearSystem& system);
 
-// e' W e of one edge, and its sum over all edges (with the kernel: of rho), those between fixed
+// e' W e of one edge, and its sum over all edges (with a loss: of rho), those between fixed
 // vertices included.
 double edge_chi2(const Problem& problem, const Values& values, Index e);
-double chi2(const Problem& problem, const Values& values, const Kernel& kernel = {});
+double chi2(const Problem& problem, const Values& values, const Loss& loss = {});
 
 // The same for who prints them: throw a computation Error at the line of the first edge whose e' W e
 // is not finite.
 double finite_edge_chi2(const Problem& problem, const Values& values, Index e);
-double finite_chi2(const Problem& problem, const Values& values, const Kernel& kernel = {});
+double finite_chi2(const Problem& problem, const Values& values, const Loss& loss = {});
 
 }  // namespace sg::factor

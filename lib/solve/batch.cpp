@@ -70,7 +70,7 @@ void check_finite(const Run& run) {
 }
 
 void relinearize(Run& run) {
-  factor::linearize(run.problem, run.values, run.options.kernel, run.system);
+  factor::linearize(run.problem, run.values, run.options.loss, run.system);
   diagonal_and_gradient(run.system, run.diagonal, run.gradient);
 }
 
@@ -190,7 +190,7 @@ bool gauss_newton(Run& run) {
     const double eliminate_s = watch.lap();
     factor::retract(run.problem, run.step, run.values);
     const double before =
-        std::exchange(result.chi2, factor::chi2(run.problem, run.values, run.options.kernel));
+        std::exchange(result.chi2, factor::chi2(run.problem, run.values, run.options.loss));
     tell(run,
          {++result.iterations, result.chi2, 0, norm(run.step), true, linearize_s, eliminate_s});
     check_finite(run);
@@ -305,7 +305,7 @@ bool levenberg_marquardt(Run& run) {
     const double eliminate_s = watch.lap();
     factor::Values trial = run.values;
     factor::retract(run.problem, run.step, trial);
-    const double after = factor::chi2(run.problem, trial, run.options.kernel), before = result.chi2;
+    const double after = factor::chi2(run.problem, trial, run.options.loss), before = result.chi2;
     const bool kept = walk.on ? std::isfinite(after) : after <= before;
     if (kept) {
       run.values = std::move(trial);
@@ -334,7 +334,7 @@ bool levenberg_marquardt(Run& run) {
 BatchResult optimize(const factor::Problem& problem, factor::LinearSystem& system,
                      const LinearSolver& solver, const BatchOptions& options,
                      factor::Values& values, const std::function<void(const Iteration&)>& report) {
-  const double start = factor::chi2(problem, values, options.kernel);
+  const double start = factor::chi2(problem, values, options.loss);
   Run run{problem, system, solver, options, values, report, {start, start, 0, false}};
   if (!std::isfinite(start)) {
     relinearize(run);  // which names the edge

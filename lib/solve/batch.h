@@ -36,13 +36,13 @@ struct BatchOptions {
   BatchMethod method = BatchMethod::levenberg_marquardt;
   int iterations = 100;     // at most
   double tolerance = 1e-9;  // of the share by which a last step changes chi2
-  factor::Kernel kernel;
+  factor::Loss loss;
   std::function<bool()> stop;  // asked after every iteration, if given: are these enough?
 };
 
 struct Iteration {
   int number;                       // 1, 2, ...
-  double chi2;                      // after it; with a kernel, the sum of rho
+  double chi2;                      // after it; with a loss, the sum of rho
   double lambda;                    // 0 for Gauss-Newton
   double step;                      // its length
   bool kept;                        // false: the step raised chi2 and was undone

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/world/outliers.h"
+
 namespace sg::world {
 namespace {
 
@@ -79,7 +81,7 @@ LandmarkGraph city(const City& world) {
   graph.landmarks = trees(world, side, random);
   look(world, side, random, graph);
   keep_triangulated(graph, world.landmark);
-  return graph;
+  return with_outliers(std::move(graph), world.outliers);
 }
 
 }  // namespace sg::world

@@ -17,6 +17,7 @@ struct City {
   Optics optics{.range = 5, .near = 0.1, .view = 360};
   PoseNoise odometry_noise{.translation = 0.01, .rotation = 0.001};
   double guess_noise = 0.1;  // metres
+  double outliers = 0;       // share of the observations that are false (outliers.h)
   Guess guess = Guess::odometry;
   std::uint64_t seed = 1;
 };

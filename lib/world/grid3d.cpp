@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
+
+#include "lib/world/outliers.h"
 
 namespace sg::world {
 namespace {
@@ -137,7 +140,7 @@ PoseGraph<SE3> grid3d(const Grid3d& world) {
   graph.noise = world.noise;
   graph.guess = world.guess;
   graph.seed = world.seed;
-  return graph;
+  return with_outliers(std::move(graph), world.outliers);
 }
 
 }  // namespace sg::world

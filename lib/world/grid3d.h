@@ -16,6 +16,7 @@ struct Grid3d {
                    // every point about twice
   double loop_chance = 0.95;  // that a neighbour is recognized
   PoseNoise noise{.translation = 0.05, .rotation = 0.01};
+  double outliers = 0;  // share of the closures that are false (outliers.h)
   Guess guess = Guess::odometry;
   std::uint64_t seed = 1;
 };

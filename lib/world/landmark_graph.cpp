@@ -226,16 +226,43 @@ void write_vertices(const LandmarkGraph& graph, const Odometry<Pose>& motions, O
   }
 }
 
+// Without noise.
+template <class Pose>
+Observation observe(const LandmarkGraph& graph, const Pose& world, Index l) {
+  return observe(graph, geometry::act(world, true_landmark<Pose>(graph, l)));
+}
+
+template <class Pose>
+double separation_of(const LandmarkGraph& graph, Index pose, Index a, Index b) {
+  const Pose world = geometry::inverse(true_pose<Pose>(graph, pose));
+  const Observation of_a = observe(graph, world, a), of_b = observe(graph, world, b);
+  double sum = 0;
+  for (int i = 0; i < of_a.size; ++i) {
+    double difference = of_a.value[i] - of_b.value[i];
+    if (graph.sensor == Sensor::bearing) difference = geometry::wrap(difference);
+    sum += std::pow(difference / of_a.sigma[i], 2);
+  }
+  return std::sqrt(sum);
+}
+
 template <class Pose>
 void write_edges(const LandmarkGraph& graph, Odometry<Pose> motions, Out& out) {
   Random random = random_stream(graph.seed, Stream::measurements);
+  Random false_random = random_stream(graph.seed, Stream::false_measurements);
   for (Index k = 0; k < static_cast<Index>(graph.poses.size()); ++k) {
     if (k > 0) odometry_line(graph, k, measured_motion(motions, k), out);
     const Pose world = geometry::inverse(true_pose<Pose>(graph, k));
     for (const Index l : graph.seen[k]) {
-      Observation observation = observe(graph, geometry::act(world, true_landmark<Pose>(graph, l)));
+      Observation observation = observe(graph, world, l);
       if (motions.copy == Copy::noisy) disturb(observation, graph.sensor, random);
       observation_line(graph, k, l, observation, out);
+    }
+    if (graph.mistaken.size() == 0) continue;
+    for (const auto& [landmark, like] : graph.mistaken[k]) {
+      Observation observation = observe(graph, world, like);
+      disturb(observation, graph.sensor, false_random);
+      begin_false(motions.copy, out);
+      observation_line(graph, k, landmark, observation, out);
     }
   }
 }
@@ -258,6 +285,11 @@ bool sees(const Optics& optics, Sensor sensor, const Vector3d& point) {
   const double ahead = camera(sensor) ? p.x() : std::hypot(p.x(), p.y());
   const double across = std::atan2(p.y(), p.x()), up = std::atan2(p.z(), ahead);
   return std::max(std::abs(across), std::abs(up)) <= optics.view / 2 * degree;
+}
+
+double separation(const LandmarkGraph& graph, Index pose, Index a, Index b) {
+  return planar(graph.sensor) ? separation_of<SE2>(graph, pose, a, b)
+                              : separation_of<SE3>(graph, pose, a, b);
 }
 
 void keep_triangulated(LandmarkGraph& graph, const Triangulation& wanted) {

@@ -53,12 +53,19 @@ struct Optics {
 // Whether the sensor of a robot sees a point of the robot's frame.
 bool sees(const Optics& optics, Sensor sensor, const Eigen::Vector3d& point);
 
+// A pose's observation of one landmark, taken for that of another (outliers.h).
+struct FalseSight {
+  Index landmark;  // which it is said to be
+  Index like;      // which it is
+};
+
 struct LandmarkGraph {
   Sensor sensor = Sensor::mono;
   Optics optics;
   std::vector<SE2> poses;                  // true ones, of the robot
   std::vector<Eigen::Vector3d> landmarks;  // true ones; a planar sensor ignores z
   graph::Lists<> seen;                     // landmarks that each pose observes
+  graph::Lists<FalseSight> mistaken;       // false observations of each pose, or no list at all
   PoseNoise odometry_noise{};
   double guess_noise = 0.1;  // metres along each axis, of landmark estimates
   Guess guess = Guess::odometry;
@@ -79,6 +86,9 @@ LandmarkGraph begin_landmark_graph(const World& world) {
   return graph;
 }
 
+// How far apart the sensor of a pose sees two landmarks: standard deviations of its noise.
+double separation(const LandmarkGraph& graph, Index pose, Index a, Index b);
+
 // What makes a landmark worth having: a direction alone, as mono and bearing measure it, determines
 // no point, and directions that hardly differ let Gauss-Newton diverge.
 struct Triangulation {
@@ -91,7 +101,7 @@ struct Triangulation {
 void keep_triangulated(LandmarkGraph& graph, const Triangulation& wanted);
 
 // The parameter line of the sensor; poses 0 .. n-1; landmarks n, n+1, ...; then with every pose its
-// odometry and its observations. The estimate of a landmark lies where the pose in the middle of
+// odometry and its observations, the false ones last (comments in the exact copy, odometry.h). The estimate of a landmark lies where the pose in the middle of
 // its observations, by its own estimate, sees it, plus noise. Does not flush.
 void write_graph(const LandmarkGraph& graph, Copy copy, Out& out);
 

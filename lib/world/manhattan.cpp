@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "lib/world/outliers.h"
+
 namespace sg::world {
 namespace {
 
@@ -43,12 +45,13 @@ PoseGraph<SE2> manhattan(const Manhattan& world) {
     add_loops(world, k, at, visits, random, loops);
     visits.at(at.x, at.y) = k;
   }
-  return {.poses = world.poses,
-          .truth = [walk](Index k) { return pose((*walk)[k]); },
-          .loops = std::move(loops),
-          .noise = world.noise,
-          .guess = world.guess,
-          .seed = world.seed};
+  return with_outliers<SE2>({.poses = world.poses,
+                             .truth = [walk](Index k) { return pose((*walk)[k]); },
+                             .loops = std::move(loops),
+                             .noise = world.noise,
+                             .guess = world.guess,
+                             .seed = world.seed},
+                            world.outliers);
 }
 
 }  // namespace sg::world

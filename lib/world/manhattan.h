@@ -14,6 +14,7 @@ struct Manhattan {
   Index gap = 10;   // poses that lie between the two at least
   double loop_chance = 0.3;  // that it is recognized
   PoseNoise noise{.translation = 0.02, .rotation = 0.005};
+  double outliers = 0;  // share of the closures that are false (outliers.h)
   Guess guess = Guess::odometry;
   std::uint64_t seed = 1;
 };

@@ -11,6 +11,12 @@ namespace sg::world {
 // same information, but true poses and true measurements.
 enum class Copy { noisy, exact };
 
+// Begins the line of a false edge, which the exact copy has as a comment: so the lines of the two are the same in number,
+// and those that begin so in one are what is false in the other.
+inline void begin_false(Copy copy, Out& out) {
+  if (copy == Copy::exact) out.buffer += "# false ";
+}
+
 // Where the poses of the noisy graph start: composed from its odometry, or where they truly are.
 enum class Guess { odometry, truth };
 

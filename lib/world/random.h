@@ -13,7 +13,14 @@ namespace sg::world {
 
 using Random = boost::random::mt19937_64;
 
-enum class Stream : std::uint32_t { structure = 1, odometry, measurements, estimates };
+enum class Stream : std::uint32_t {
+  structure = 1,
+  odometry,
+  measurements,
+  estimates,
+  false_edges,
+  false_measurements
+};
 
 Random random_stream(std::uint64_t seed, Stream stream);
 

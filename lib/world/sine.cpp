@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lib/text/error.h"
+#include "lib/world/outliers.h"
 
 namespace sg::world {
 namespace {
@@ -95,7 +96,7 @@ LandmarkGraph sine(const Sine& world) {
   graph.landmarks = scattered_landmarks(world, graph.poses.back().x);
   look(world, graph);
   keep_triangulated(graph, world.landmark);
-  return graph;
+  return with_outliers(std::move(graph), world.outliers);
 }
 
 }  // namespace sg::world

@@ -23,6 +23,7 @@ struct Sine {
   Optics optics;
   PoseNoise odometry_noise{.translation = 0.01, .rotation = 0.002};
   double guess_noise = 0.1;  // metres
+  double outliers = 0;       // share of the observations that are false (outliers.h)
   Guess guess = Guess::odometry;
   std::uint64_t seed = 1;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/world/outliers.h"
+
 namespace sg::world {
 namespace {
 
@@ -34,12 +36,13 @@ PoseGraph<SE3> sphere(const Sphere& world) {
     const double latitude = pi * ((k + 0.5) / n - 0.5);
     return on_sphere(latitude, 2 * pi * (k % turn) / turn, radius);
   };
-  return {.poses = n,
-          .truth = truth,
-          .loops = std::move(loops),
-          .noise = world.noise,
-          .guess = world.guess,
-          .seed = world.seed};
+  return with_outliers<SE3>({.poses = n,
+                             .truth = truth,
+                             .loops = std::move(loops),
+                             .noise = world.noise,
+                             .guess = world.guess,
+                             .seed = world.seed},
+                            world.outliers);
 }
 
 }  // namespace sg::world

@@ -12,6 +12,7 @@ struct Sphere {
   double radius = 0;       // metres; 0: so that poses on the equator are a metre apart
   double loop_chance = 1;  // that a loop closure is found
   PoseNoise noise{.translation = 0.05, .rotation = 0.01};
+  double outliers = 0;  // share of the closures that are false (outliers.h)
   Guess guess = Guess::odometry;
   std::uint64_t seed = 1;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/world/outliers.h"
+
 namespace sg::world {
 namespace {
 
@@ -44,12 +46,13 @@ PoseGraph<SE3> torus(const Torus& world) {
   const auto truth = [n, turn, tube, ratio = world.ratio](Index k) {
     return on_torus(2 * pi * k / n, 2 * pi * (k % turn) / turn, tube, ratio);
   };
-  return {.poses = n,
-          .truth = truth,
-          .loops = found_loops(world, turn),
-          .noise = world.noise,
-          .guess = world.guess,
-          .seed = world.seed};
+  return with_outliers<SE3>({.poses = n,
+                             .truth = truth,
+                             .loops = found_loops(world, turn),
+                             .noise = world.noise,
+                             .guess = world.guess,
+                             .seed = world.seed},
+                            world.outliers);
 }
 
 }  // namespace sg::world

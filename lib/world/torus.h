@@ -13,6 +13,7 @@ struct Torus {
   double ratio = 2;          // radius of the torus, its centre to the tube's, in radii of the tube
   double loop_chance = 0.8;  // that a loop closure is found
   PoseNoise noise{.translation = 0.05, .rotation = 0.01};
+  double outliers = 0;  // share of the closures that are false (outliers.h)
   Guess guess = Guess::odometry;
   std::uint64_t seed = 1;
 };

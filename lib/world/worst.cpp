@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lib/text/error.h"
+#include "lib/world/outliers.h"
 
 namespace sg::world {
 namespace {
@@ -33,7 +34,7 @@ LandmarkGraph worst(const Worst& world) {
     for (Index l = 0; l < world.landmarks; ++l) graph.seen.items.push_back(l);
     graph.seen.close();
   }
-  return graph;
+  return with_outliers(std::move(graph), world.outliers);
 }
 
 }  // namespace sg::world

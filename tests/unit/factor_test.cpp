@@ -7,6 +7,7 @@
 #include "lib/factor/initialize.h"
 #include "lib/factor/linear.h"
 #include "lib/factor/linearize.h"
+#include "lib/factor/residuals.h"
 #include "lib/text/error.h"
 #include "tests/unit/common.h"
 
@@ -493,28 +494,83 @@ TEST_CASE("what no edge places is told", "[factor]") {
   CHECK(adrift(seen + "EDGE_PRIOR_SE2 1 1 0 0 1 0 0 1 0 1\n") == std::vector<Index>{0});
 }
 
-TEST_CASE("kernels weigh blocks by the slope of rho", "[factor]") {
-  for (const factor::Kernel kernel : {factor::Kernel{factor::KernelShape::huber, 1.3},
-                                      factor::Kernel{factor::KernelShape::cauchy, 0.7}}) {
-    for (double s : {0.1, 1.0, 5.0, 100.0}) {
-      const double slope = (factor::rho(kernel, s + 1e-5) - factor::rho(kernel, s - 1e-5)) / 2e-5;
-      CHECK(factor::weight(kernel, s) == Approx(slope).epsilon(1e-6));
+TEST_CASE("a kernel's weight is the slope of its rho", "[factor]") {
+  for (const factor::KernelShape& shape : factor::kernel_shapes()) {
+    INFO(shape.name);
+    CHECK(factor::find_kernel_shape(shape.name) == &shape);
+    for (const double width : {0.7, 1.0, 3.0}) {
+      const factor::Kernel kernel{&shape, width};
+      CHECK(factor::weight(kernel, 0) == Approx(1));
+      for (const double s : {0.1, 0.48, 0.5, 1.001, 5.0, 8.9, 100.0, 1e6}) {
+        const double h = 1e-5 * s;
+        const double slope = (factor::rho(kernel, s + h) - factor::rho(kernel, s - h)) / (2 * h);
+        CHECK(factor::weight(kernel, s) == Approx(slope).epsilon(1e-5).margin(1e-9));
+      }
+      const double bend = width * width, h = 1e-9 * bend;
+      CHECK(factor::rho(kernel, bend + h) == Approx(factor::rho(kernel, bend - h)).epsilon(1e-8));
+      CHECK(factor::weight(kernel, bend + h) ==
+            Approx(factor::weight(kernel, bend - h)).margin(1e-8));
     }
   }
+  CHECK(factor::find_kernel_shape("huge") == nullptr);
+}
+
+TEST_CASE("a loss scales the blocks of the edges that it is for, by the root of their weight",
+          "[factor]") {
   const Graph graph = test_graph("types-se2.g2o");
   const factor::Problem problem = factor::make_problem(graph);
   const factor::Values values = factor::start_values(problem);
-  factor::LinearSystem plain = factor::make_linear_system(problem),
-                       weighed = factor::make_linear_system(problem);
-  const factor::Kernel kernel{factor::KernelShape::huber, 0.5};
+  const factor::Kernel kernel{factor::find_kernel_shape("huber"), 0.5};
+  factor::LinearSystem plain = factor::make_linear_system(problem), weighed = plain;
   factor::linearize(problem, values, {}, plain);
-  factor::linearize(problem, values, kernel, weighed);
-  for (Index r = 0; r < graph.edges(); ++r) {
-    const double scale = std::sqrt(factor::weight(kernel, factor::edge_chi2(problem, values, r)));
-    for (Offset k = plain.begin[r]; k < plain.begin[r + 1]; ++k) {
-      CHECK(weighed.numbers[k] == Approx(scale * plain.numbers[k]).margin(1e-12));
+  for (const bool some : {false, true}) {
+    factor::Loss loss{kernel, {}, {}};
+    for (Index e = 0; some && e < graph.edges(); ++e) {
+      loss.robust.push_back(e % 3 != 0);
+      loss.share.push_back(e % 5 / 4.0);
     }
+    factor::linearize(problem, values, loss, weighed);
+    double sum = 0;
+    for (Index e = 0; e < graph.edges(); ++e) {
+      const double s = factor::edge_chi2(problem, values, e);
+      const bool robust = !some || e % 3 != 0;
+      const double share = some ? e % 5 / 4.0 : 1;
+      sum += share * (robust ? factor::rho(kernel, s) : s);
+      const double scale = std::sqrt(share * (robust ? factor::weight(kernel, s) : 1));
+      for (Offset k = plain.begin[e]; k < plain.begin[e + 1]; ++k)
+        CHECK(weighed.numbers[k] == Approx(scale * plain.numbers[k]).margin(1e-12));
+    }
+    CHECK(factor::chi2(problem, values, loss) == Approx(sum));
   }
+}
+
+TEST_CASE("residuals: degrees of freedom, and quantiles as tables have them", "[factor]") {
+  CHECK(factor::chi2_quantile(3.841458821, 1) == Approx(0.95));
+  CHECK(factor::chi2_quantile(7.814727903, 3) == Approx(0.95));
+  CHECK(factor::chi2_of_quantile(0.99, 6) == Approx(16.81189383));
+  CHECK(factor::chi2_of_quantile(0.9999, 3) == Approx(21.10751347));
+  for (const double x : {0.01, 1.0, 9.0}) {
+    CHECK(factor::chi2_quantile(x, 2) == Approx(1 - std::exp(-x / 2)));  // in closed form
+    CHECK(factor::chi2_of_quantile(1 - std::exp(-x / 2), 2) == Approx(x));
+  }
+  CHECK(factor::chi2_quantile(0, 0) == 0);
+  CHECK(factor::chi2_quantile(1, 0) == 1);
+  // The second edge says nothing of the angle; the third of a combination alone; the last nothing.
+  const Graph graph = graph_of(
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 2 0 0\n"
+      "EDGE_SE2 0 1 1 0 0 4 1 0 4 0 1\nEDGE_SE2 0 1 1.5 0 0 4 0 0 4 0 0\n"
+      "EDGE_SE2 1 2 1 1 0 1 1 0 1 0 0\nEDGE_SE2 1 2 3 0 0 0 0 0 0 0 0\n");
+  const factor::Problem problem = factor::make_problem(graph);
+  auto residuals = factor::residuals(problem, factor::start_values(problem));
+  const std::vector<double> chi2{0, 1, 1, 0};
+  const std::vector<int> degrees{3, 2, 1, 0};
+  for (Index e = 0; e < 4; ++e) {
+    CHECK(residuals[e].chi2 == Approx(chi2[e]).margin(1e-12));
+    CHECK(residuals[e].degrees == degrees[e]);
+  }
+  factor::worst_first(residuals);
+  CHECK(residuals[0].edge == 2);  // 1 is more of one degree than of two
+  CHECK(residuals[1].edge == 1);
 }
 
 TEST_CASE("a singular information matrix counts for what it says", "[factor]") {

@@ -2,11 +2,16 @@
 // once more. An exact graph has no residuals; of a noisy one the residuals at the truth are what its information
 // matrices claim.
 #include <Eigen/Dense>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "formats/formats.h"
+#include "lib/factor/initialize.h"
+#include "lib/factor/linearize.h"
+#include "lib/graph/replay.h"
 #include "lib/world/city.h"
 #include "lib/world/grid3d.h"
 #include "lib/world/manhattan.h"
@@ -475,4 +480,95 @@ TEST_CASE("numbers are rounded to nine digits after the point", "[world]") {
     CHECK(std::stod(written(x)) == sg::world::rounded(x));
     CHECK(std::abs(sg::world::rounded(x) - x) <= 0.5e-9 + 1e-15 * std::abs(x));
   }
+}
+
+namespace {
+
+// False edges: lines of the noisy graph that are comments of the exact one.
+template <class World>
+std::string false_lines(const World& world) {
+  std::istringstream exact(text_of_world(world, Copy::exact)),
+      noisy(text_of_world(world, Copy::noisy));
+  std::string result, of_exact, of_noisy;
+  while (std::getline(exact, of_exact)) {
+    REQUIRE(std::getline(noisy, of_noisy));
+    if (!of_exact.starts_with("# false ")) continue;
+    CHECK(of_exact.substr(8) == of_noisy);
+    result += of_noisy + "\n";
+  }
+  CHECK_FALSE(std::getline(noisy, of_noisy));
+  return result;
+}
+
+// That a share of the edges beside odometry is false, and that they are: in the exact graph they have errors.
+template <class World>
+void check_outliers(const World& world, double share) {
+  const std::string exact = text_of_world(world, Copy::exact), lines = false_lines(world);
+  const Graph truth = read(exact), all = read(exact + lines);
+  const factor::Problem problem = factor::make_problem(all);
+  const factor::Values values = factor::start_values(problem);
+  const auto roles = graph::edge_roles(all, graph::pose_index(all));
+  Index wrong = all.edges() - truth.edges();
+  for (Index e = 0; e < all.edges(); ++e) {
+    const double chi2 = factor::edge_chi2(problem, values, e);
+    if (e < truth.edges()) {
+      CHECK(chi2 < 1e-3);
+    } else {
+      CHECK(chi2 > 25);  // ten deviations, and noise on top
+      CHECK(roles[e] != graph::EdgeRole::odometry);
+    }
+  }
+  const auto odometry = std::ranges::count(roles, graph::EdgeRole::odometry);
+  CHECK(static_cast<double>(wrong) ==
+        Approx(share * static_cast<double>(all.edges() - odometry)).margin(1));
+}
+
+}  // namespace
+
+TEST_CASE("so many edges are false as are asked for, and the exact graph tells which", "[world]") {
+  for (const double share : {0.1, 0.4}) {
+    for (const std::uint64_t seed : {1, 2}) {
+      using namespace sg::world;
+      check_outliers(manhattan({.poses = 300, .outliers = share, .seed = seed}), share);
+      check_outliers(sphere({.poses = 100, .outliers = share, .seed = seed}), share);
+      check_outliers(torus({.poses = 100, .outliers = share, .seed = seed}), share);
+      check_outliers(grid3d({.poses = 60, .outliers = share, .seed = seed}), share);
+      check_outliers(city({.poses = 60, .outliers = share, .seed = seed}), share);
+      check_outliers(
+          worst({.poses = 5, .landmarks = 9, .optics = {}, .outliers = share, .seed = seed}),
+          share);
+      for (const Sensor sensor : sensors)
+        check_outliers(sine({.poses = 40,
+                             .landmark = {},
+                             .sensor = sensor,
+                             .optics = {},
+                             .outliers = share,
+                             .seed = seed}),
+                       share);
+    }
+  }
+}
+
+TEST_CASE("outliers change nothing else of a world", "[world]") {
+  const auto without = [](const std::string& lines, std::string text) {
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) {
+      line += "\n";
+      text.erase(text.find(line), line.size());
+    }
+    return text;
+  };
+  const auto world = sg::world::manhattan({.poses = 300, .outliers = 0.3});
+  CHECK(without(false_lines(world), text_of_world(world, Copy::noisy)) ==
+        text_of_world(sg::world::manhattan({.poses = 300}), Copy::noisy));
+  const auto city = sg::world::city({.poses = 60, .outliers = 0.3});
+  CHECK(without(false_lines(city), text_of_world(city, Copy::noisy)) ==
+        text_of_world(sg::world::city({.poses = 60}), Copy::noisy));
+}
+
+TEST_CASE("a world too small for outliers is refused", "[world]") {
+  CHECK_THROWS_AS(sg::world::worst({.poses = 4, .landmarks = 1, .optics = {}, .outliers = 0.2}),
+                  text::Error);
+  CHECK_NOTHROW(sg::world::worst({.poses = 4, .landmarks = 1, .optics = {}}));
+  CHECK(sg::world::manhattan({.poses = 3, .outliers = 0.5}).false_loops.empty());
 }

@@ -75,7 +75,7 @@ vertices() { awk '/^VERTEX/ {print $2}' "$@" | paste -sd ' '; }
 }
 
 @test "wrong calls" {
-  one="sg-cut: which part? Give one of --poses, --range, --component, --largest, --ids, --tags, --without (see sg-cut --help)"
+  one="sg-cut: which part? Give one of --poses, --range, --component, --largest, --ids, --tags, --without, --where (see sg-cut --help)"
   fails 2 "$one" sg-cut walk.g2o
   fails 2 "sg-cut: which part? --poses keeps the first steps, --largest the largest connected part: give one of them (see sg-cut --help)" \
     sg-cut --largest --poses 3 walk.g2o
@@ -84,4 +84,41 @@ vertices() { awk '/^VERTEX/ {print $2}' "$@" | paste -sd ' '; }
   fails 2 "sg-cut: --component: the graph has no vertex 7 (see sg-cut --help)" sg-cut --component 7 walk.g2o
   fails 2 "sg-cut: --ids 7: the graph has no such vertex (see sg-cut --help)" sg-cut --ids 7 walk.g2o
   run -2 sg-cut --poses 0 walk.g2o
+}
+
+@test "--where keeps the edges of which a condition holds, and every vertex" {
+  sg-gen city -n 80 --outliers 0.2 --truth truth --no-trace-comment -o noisy
+  sg-solve -i 2 -q noisy --no-trace-comment -o solved
+  keeps() { sg-cut --no-trace-comment --where "$1" solved >out; cmp <(grep ^VERTEX solved) <(grep ^VERTEX out); }
+  by_table() { sg-solve --residuals solved --no-header -f line,chi2,dof,quantile,type | awk -F'\t' "$1 {print \$1}" | sort -n; }
+  kept() { grep -nFxf <(grep ^EDGE out) solved | cut -d: -f1 | sort -n; }
+  while IFS='|' read -r condition awk; do
+    keeps "$condition"
+    [ -s out ]
+    cmp <(kept) <(by_table "$awk")
+  done <<'END'
+chi2 > 9|$2 > 9
+chi2<=9|$2 <= 9
+quantile < 0.9999 and dof = 2|$4 < 0.9999 && $3 == 2
+type = EDGE_SE2 or chi2 >= 1 and chi2 < 4|$5 == "EDGE_SE2" || $2 >= 1 && $2 < 4
+role != observation|$5 == "EDGE_SE2"
+role=observation and type!=EDGE_SE2|$5 != "EDGE_SE2"
+END
+}
+
+@test "--where of roles and types needs no measurement model" {
+  printf 'A 0\nA 1\nB 0 1 5\n' >g
+  run -0 sg-cut --vertex A:3:pose --edge B:2 --no-trace-comment --where 'role = odometry' g
+  [ "$output" = "$(cat g)" ]
+}
+
+@test "a wrong condition is told before the graph is read" {
+  wrong() { fails 2 "sg-cut: --where: $1 (see sg-cut --help)" sg-cut --where "$2" missing.g2o; }
+  wrong "'chi2 >' is no condition, as 'chi2 < 9 or role = odometry' is one" "chi2 >"
+  wrong "'chi2 > 9 and' is no condition, as 'chi2 < 9 or role = odometry' is one" "chi2 > 9 and"
+  wrong "no column 'ch2': did you mean chi2? There are chi2, dof, quantile, role, type" "ch2 > 9"
+  wrong "'x' is not a number" "chi2 > x"
+  wrong "'<' does not compare a role; there are =, !=" "role < loop"
+  wrong "'=<' does not compare a chi2; there are <, <=, >, >=, =, !=" "chi2 =< 3"
+  wrong "'xor' where and or or joins comparisons" "chi2 < 3 xor dof = 3"
 }

@@ -106,3 +106,25 @@ tags() { grep -v '^#' "$1" | cut -d' ' -f1 | sort | uniq -c | awk '{print $2 " "
   said=$( { sg-gen manhattan -n 50000 | head -n 1 >/dev/null; echo "${PIPESTATUS[0]}"; } 2>&1)
   [ "$said" = 0 ]
 }
+
+@test "--outliers: the truth tells which edges are false" {
+  for world in $(worlds); do
+    sg-gen $world -n 80 --outliers 0.25 --truth truth -o noisy
+    [ "$(wc -l <truth)" -eq "$(wc -l <noisy)" ]
+    [ "$(grep -c '^# false ' truth)" -gt 3 ]
+    cmp <(sed -n 's/^# false //p' truth) <(paste -d'|' truth noisy | sed -n 's/^# false [^|]*|//p')
+    # What is left is the graph without them.
+    cmp <(paste -d'|' truth noisy | grep -v '^# false ' | cut -d'|' -f2 | grep -v '^#') <(sg-gen $world -n 80 --no-trace-comment)
+    cmp <(sg-gen $world -n 80 --outliers 0 --no-trace-comment) <(sg-gen $world -n 80 --no-trace-comment)
+  done
+}
+
+@test "false edges of a seed are the same as ever" {
+  sums=$(for world in $(worlds); do sg-gen $world -n 40 --outliers 0.2 --no-trace-comment | md5sum | cut -c1-12; done | paste -sd' ')
+  [ "$sums" = "b500af946387 bf2e33d7c2b3 c1af009c3e72 d41d8cd98f00 cf1809a56407 f37e6725f4c2 4f135f36ef65" ] || { echo "$sums" >&2; false; }
+}
+
+@test "a world too small for outliers" {
+  fails 3 "sg-gen: the world is too small for outliers of 10 standard deviations" sg-gen worst -n 4 -l 1 --outliers 0.2
+  fails 2 "sg-gen: --outliers 1: must be from 0 to 0.99 (see sg-gen --help)" sg-gen sphere --outliers 1
+}

@@ -117,8 +117,8 @@ setup() {
 }
 
 @test "a wrong call is told" {
-  for kernel in huber huber:0 huber:x tukey:1; do
-    fails 2 "sg-solve: --kernel wants huber:W or cauchy:W with W above 0, not '$kernel' (see sg-solve --help)" \
+  for kernel in huber huber:0 huber:x tukeys:1; do
+    fails 2 "sg-solve: --kernel wants NAME:W with W above 0, not '$kernel'; there are huber, cauchy, tukey, geman-mcclure, dcs (see sg-solve --help)" \
       sg-solve --kernel $kernel walk.g2o
   done
   fails 2 "sg-solve: --chi2 prints the chi-square, --time times eliminations: give one of them (see sg-solve --help)" sg-solve --chi2 --time 3 walk.g2o

@@ -1,0 +1,20 @@
+// The table of sg-solve --residuals and --weights: a row an edge, the worst first.
+#pragma once
+
+#include "cmd/common/table.h"
+#include "lib/factor/residuals.h"
+
+namespace sg::cmd {
+
+struct ResidualRow {
+  const Graph& graph;
+  factor::Residual residual;
+  double weight;
+  std::size_t line;
+};
+extern const std::vector<Column<ResidualRow>> residual_columns;
+
+void print_residuals(const factor::Problem& problem, const factor::Values& values,
+                     const factor::Loss& loss, Table<ResidualRow>& table);
+
+}  // namespace sg::cmd
