@@ -16,7 +16,9 @@
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/batch.h"
+#include "lib/solve/best_start.h"
 #include "lib/solve/front.h"
+#include "lib/solve/start.h"
 #include "lib/text/words.h"
 
 using namespace sg;
@@ -63,11 +65,11 @@ struct Options {
   int threads = tbb::info::default_concurrency();
   int runs = 0;
   bool chi2 = false;
-  bool from_edges = false;
+  std::string start;
   bool keep = false;
 };
 
-constexpr int most_iterations = 100;
+constexpr int most_iterations = 1000;
 
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_input(command, options.input);
@@ -91,7 +93,10 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
       ->option_text("N")
       ->transform(cmd::whole(1, 4096));
-  app.add_flag("--init", options.from_edges, "Start from the edges alone, not from the file");
+  app.add_option("--start", options.start, "Start from " + solve::start_names())
+      ->option_text("NAME");
+  app.add_flag_callback(
+      "--init", [&options] { options.start = "odometry"; }, "The same as --start odometry");
   app.add_flag("--keep", options.keep, "Write the graph even if it did not converge");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
@@ -227,13 +232,33 @@ void check_converged(const cmd::Command& command, const Options& options,
       cause + ", from " + text::format_number(result.initial_chi2) +
       "; nothing is written (--keep would): try " +
       (options.gauss_newton ? "it without --gn, " : "--gn, ") +
-      (options.from_edges ? "the file's start (without --init)" : "--init") +
+      (!options.start.empty() ? "the file's start (without --init)" : "--init") +
       ", --kernel cauchy:1, or more iterations (-i N)");
 }
 
-void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem,
-           factor::Values values) {
+// Where the user says, or the best of several.
+std::vector<solve::Candidate> candidates(const Options& options, const factor::Problem& problem) {
+  const factor::Kernel kernel = parse_kernel(options.kernel);
+  if (options.start.empty()) return solve::default_candidates(problem, kernel);
+  std::vector<solve::Candidate> one;
+  one.push_back(solve::make_candidate(problem, options.start, kernel));
+  return one;
+}
+
+// On -v: all starts there are.
+void tell_starts(const std::vector<solve::Candidate>& starts) {
+  std::string line = "starts by chi-square:";
+  for (const solve::Candidate& start : starts)
+    line +=
+        (&start == &starts[0] ? " " : ", ") + std::string(start.name) + ' ' + rounded(start.chi2);
+  cmd::say(line);
+}
+
+void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem) {
   const auto begin = std::chrono::steady_clock::now();
+  cmd::stage("start");
+  std::vector<solve::Candidate> starts = candidates(options, problem);
+  if (command.verbose) tell_starts(starts);
   cmd::stage("order");
   const graph::Order order = named_order(options, *problem.graph).order;
   factor::LinearSystem system = factor::make_linear_system(problem);
@@ -242,15 +267,20 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   batch.stop = cmd::interrupted;
   cmd::finish_first();
   cmd::stage("solve", batch.iterations);
-  if (command.verbose) {
+  const auto tell_start = [&](const solve::Candidate& start) {
+    if (!command.verbose) return;
+    cmd::say("from " + std::string(start.name) + ":");
     cmd::print_error("iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n");
-    print_iteration({0, factor::chi2(problem, values, batch.kernel), 0, 0, true, 0, 0});
-  }
+    print_iteration({0, start.chi2, 0, 0, true, 0, 0});
+  };
   const auto report = [&](const solve::Iteration& iteration) {
     cmd::progress(iteration.number);
     if (command.verbose) print_iteration(iteration);
   };
-  const solve::BatchResult result = solve::optimize(problem, system, solver, batch, values, report);
+  factor::Values values;
+  const bool others = options.start.empty() && !options.iterations;
+  const solve::BatchResult result = solve::optimize_from_best(
+      problem, system, solver, batch, std::move(starts), others, values, tell_start, report);
   check_converged(command, options, result);
   if (result.scale_free) {
     cmd::warn(
@@ -261,6 +291,12 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   cmd::write_filtered(command, options.output, *problem.graph,
                       cmd::estimate_changes(problem, values, moved(problem)));
   tell(command, result, seconds_since(begin));
+}
+
+// Of what is not optimized.
+factor::Values start_values(const Options& options, const factor::Problem& problem) {
+  return options.start.empty() ? factor::start_values(problem)
+                               : solve::find_start(options.start).make(problem);
 }
 
 void check_call(const cmd::Command& command, const Options& options) {
@@ -289,18 +325,17 @@ void run(const cmd::Command& command, const Options& options) {
   const Graph graph = cmd::read(options.input);
   cmd::stage("start");
   const factor::Problem problem = factor::make_problem(graph);
-  factor::Values values =
-      options.from_edges ? factor::initial_values(problem) : factor::start_values(problem);
   if (options.chi2) {
+    const factor::Values values = start_values(options, problem);
     cmd::Output output(options.output.path);
     output.write(
         text::format_number(factor::finite_chi2(problem, values, parse_kernel(options.kernel))) +
         "\n");
     output.commit();
   } else if (options.runs > 0) {
-    print_times(options, problem, values);
+    print_times(options, problem, start_values(options, problem));
   } else {
-    solve(command, options, problem, std::move(values));
+    solve(command, options, problem);
   }
 }
 
