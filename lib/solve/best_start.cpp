@@ -14,6 +14,9 @@ namespace {
 constexpr int long_run = 100;  // iterations after which the others are asked
 constexpr int trial_run = 20;  // that each of them has to get below the best
 
+constexpr double deviations = 4;
+constexpr double gain = 1e-6;  // less is the same valley
+
 // What chi-square is on average if all errors are noise as their information says.
 double degrees_of_freedom(const factor::Problem& problem) {
   double sum = 0;
@@ -86,12 +89,14 @@ std::optional<Run> set_out(Search& search, Candidate& start, int iterations) {
 }
 
 bool explains(const factor::Problem& problem, const std::optional<Run>& run) {
-  return run && run->result.converged && run->result.chi2 <= degrees_of_freedom(problem);
+  const double mean = degrees_of_freedom(problem);
+  return run && run->result.converged &&
+         run->result.chi2 <= mean + deviations * std::sqrt(2 * std::max(mean, 0.0));
 }
 
 void try_other(Search& search, Candidate& start) {
   std::optional<Run> run = set_out(search, start, trial_run);
-  if (!run || (search.best && !(run->result.chi2 < search.best->result.chi2))) return;
+  if (!run || (search.best && !(run->result.chi2 < (1 - gain) * search.best->result.chi2))) return;
   go_to_the_end(search, *run);
   search.best = std::move(run);
 }

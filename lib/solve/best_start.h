@@ -4,7 +4,8 @@
 // better is nearly always in the better valley. So
 //
 //   1  the starts' chi-squares are compared, and the optimizer runs from the least;
-//   2  where it ends in what noise alone explains, chi-square at most its mean, the degrees of freedom, that is the end;
+//   2  where it ends in what noise alone explains, chi-square at most four standard deviations above its mean, the degrees
+//      of freedom, that is the end;
 //   3  otherwise, and where it diverges or takes longer than `long_run` iterations, the others have their turn, and the
 //      spanning tree's start: a few iterations each, and more for one that gets below what the best has reached.
 #pragma once
