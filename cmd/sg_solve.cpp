@@ -78,7 +78,7 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
   app.add_option(
          "-i,--iterations", options.iterations,
-         "At most N iterations, and write what they reach\n(default: 100, which have to converge)")
+         "At most N iterations, and write what they reach\n(default: 1000, which have to converge)")
       ->option_text("N")
       ->transform(cmd::whole(0));
   app.add_option("--tolerance", options.tolerance,
@@ -232,7 +232,7 @@ void check_converged(const cmd::Command& command, const Options& options,
       cause + ", from " + text::format_number(result.initial_chi2) +
       "; nothing is written (--keep would): try " +
       (options.gauss_newton ? "it without --gn, " : "--gn, ") +
-      (!options.start.empty() ? "the file's start (without --init)" : "--init") +
+      (options.start.empty() ? "--start isam2" : "it without --start") +
       ", --kernel cauchy:1, or more iterations (-i N)");
 }
 

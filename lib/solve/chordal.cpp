@@ -12,10 +12,6 @@
 namespace sg::solve {
 namespace {
 
-constexpr int most_rounds = 10;
-constexpr double pull = 0.1;      // u, of the mean information of turns at a pose
-constexpr double settled = 1e-3;  // mean square change of a rotation that calls for no other round
-
 constexpr Index world = -1;
 
 struct MotionEdge {

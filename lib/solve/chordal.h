@@ -33,6 +33,10 @@
 
 namespace sg::solve {
 
+constexpr int most_rounds = 10;
+constexpr double pull = 0.1;      // u, of the mean information of turns that is measured at a pose
+constexpr double settled = 1e-3;  // root of the mean |R - P|^2 that calls for no other round
+
 // Steps 1 and 2: turns poses where they stand; the rest of `values` stays. Throws least_squares.h's Error.
 void relax_rotations(const factor::Problem& problem, factor::Values& values);
 
