@@ -1,8 +1,16 @@
 // sg-convert: write a graph in another format.
 #include <algorithm>
+#include <limits>
 
 #include "cmd/common/command.h"
+#include "cmd/common/options.h"
+#include "cmd/convert/hessian.h"
+#include "formats/applied.h"
 #include "formats/convert.h"
+#include "formats/renumber.h"
+#include "formats/scale.h"
+#include "formats/times_file.h"
+#include "formats/tum.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/undetermined.h"
 #include "lib/text/nearest.h"
@@ -18,6 +26,11 @@ struct Options {
   formats::WriteOptions write;
   bool estimates = false;
   bool lossy = false;
+  bool values = false;
+  std::string times;
+  std::vector<std::string> scale_information;
+  std::vector<Id> fix;
+  bool renumber = false;
 };
 
 // The graph with a VERTEX line for every vertex, its estimate composed from the edges.
@@ -58,6 +71,50 @@ std::vector<std::string> losses(const Options& options, const Graph& graph) {
   return said;
 }
 
+// FIX lines at the end for the vertices that have none.
+formats::Changes with_fixed(const Graph& graph, const std::vector<Id>& ids) {
+  formats::Changes changes = formats::unchanged(graph);
+  std::vector<bool> fixed = graph.fixed;
+  for (const Id id : ids) {
+    const auto v = graph::find_vertex(graph, id);
+    if (!v) throw text::usage_error("--fix: the graph has no vertex " + std::to_string(id));
+    if (!fixed[*v]) changes.append += std::string(graph::fix_tag) + " " + std::to_string(id) + "\n";
+    fixed[*v] = true;
+  }
+  return changes;
+}
+
+formats::Changes scaled(const Graph& graph, const std::vector<std::string>& texts) {
+  std::vector<formats::InformationScale> scales;
+  for (const auto& text : texts) scales.push_back(formats::parse_scale(graph.tags, text));
+  return formats::scaled(graph, scales);
+}
+
+// The graph with what the call changes of it; ids in the call are those of the file.
+Graph edited(const Options& options, Graph graph) {
+  const auto apply = [&](formats::Changes changes) {
+    graph = formats::applied(graph, std::move(changes), options.input.options);
+  };
+  if (!graph.left_out.empty()) apply(formats::unchanged(graph));
+  if (!options.scale_information.empty()) apply(scaled(graph, options.scale_information));
+  if (!options.fix.empty()) apply(with_fixed(graph, options.fix));
+  if (options.renumber) apply(formats::renumbered(graph, formats::counted_ids(graph)));
+  return graph;
+}
+
+// Of every pose that a trajectory can have; nothing without --times.
+std::vector<std::string> times(const Options& options, const Graph& graph) {
+  if (options.times.empty()) return {};
+  const std::string file = text::input_name(options.times);
+  std::vector<std::string> times =
+      formats::parse_times(text::read_text(options.times).view, file, graph);
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (times[v].empty() && formats::is_trajectory_pose(graph, v))
+      throw text::input_error(file, 0, "it has no time of vertex " + std::to_string(graph.id[v]));
+  }
+  return times;
+}
+
 // A name that promises another format.
 void check_ending(const Options& options) {
   const std::string& path = options.output.path;
@@ -79,18 +136,29 @@ Options with_format(const cmd::Command& command, Options options) {
   return options;
 }
 
-void convert(const cmd::Command& command, const Options& given) {
+void run(const cmd::Command& command, const Options& given) {
   const Options options = with_format(command, given);
   const formats::WriteFormat& format = formats::find_write_format(options.to);
-  if (options.to != "mtx") cmd::refuse(command.app, {"--scalar"}, "without --to mtx");
+  if (options.to != "mtx") cmd::refuse(command.app, {"--scalar", "--values"}, "without --to mtx");
+  if (options.values) cmd::refuse(command.app, {"--scalar"}, "with --values, which are scalars");
+  if (options.to != "tum") cmd::refuse(command.app, {"--times"}, "without --to tum");
+  if (options.renumber) cmd::refuse(command.app, {"--times"}, "with --renumber, which changes ids");
   check_ending(options);
   Graph graph = cmd::read(options.input);
   cmd::stage("convert");
+  const bool edits = options.renumber || !options.fix.empty() || !options.scale_information.empty();
+  if (edits) graph = edited(options, std::move(graph));
   const std::vector<std::string> lost = losses(options, graph);
   if (graph.edges_only && (options.estimates || format.estimates))
     graph = with_estimates(command, graph, options.input.options);
+  formats::WriteOptions write = options.write;
+  write.times = times(options, graph);
   cmd::Output output(options.output.path);
-  format.write(graph, options.write, output);
+  if (options.values) {
+    convert::write_hessian(graph, output);
+  } else {
+    format.write(graph, write, output);
+  }
   output.commit();
   for (const std::string& line : lost) cmd::warn(command, line);
 }
@@ -103,6 +171,22 @@ void add_options(cmd::Command& command, Options& options) {
       ->option_text("FORMAT");
   command.app.add_flag("--scalar", options.write.scalar,
                        "mtx: the scalar system matrix, not the block one");
+  command.app.add_flag("--values", options.values,
+                       "mtx: the scalar one with its numbers");
+  command.app.add_option("--times", options.times, "tum: the times of a table of id and time")
+      ->option_text("FILE");
+  command.app.add_flag("--renumber", options.renumber,
+                       "Poses 0, 1, 2, ..., all others behind them");
+  command.app
+      .add_option("--scale-information", options.scale_information,
+                  "Multiply the information of edges of this tag by X")
+      ->option_text("TAG=X")
+      ->allow_extra_args(false);
+  command.app.add_option("--fix", options.fix, "Make these vertices constants")
+      ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("ID,...");
   command.app.add_flag("--estimates", options.estimates,
                        "In an edges-only file: add VERTEX lines,\ncomposed along odometry");
   command.app.add_flag("--lossy", options.lossy, "Leave out what the format cannot hold");
@@ -116,5 +200,5 @@ void add_options(cmd::Command& command, Options& options) {
 
 int main(int argc, char** argv) {
   return cmd::run(cmd::Command("sg-convert", "Write a graph in another format."), argc, argv,
-                  add_options, convert);
+                  add_options, run);
 }

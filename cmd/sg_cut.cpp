@@ -1,10 +1,11 @@
-// sg-cut: keep a part of a graph: steps, poses, ids, or what is connected.
+// sg-cut: keep a part of a graph: steps, poses, ids, tags, or what is connected.
 #include <algorithm>
 
 #include "cmd/common/command.h"
 #include "cmd/common/options.h"
+#include "cmd/common/ranges.h"
 #include "lib/graph/cut.h"
-#include "lib/text/words.h"
+#include "lib/text/nearest.h"
 
 using namespace sg;
 
@@ -19,33 +20,21 @@ struct Options {
   std::optional<Id> component;
   bool largest = false;
   std::vector<std::string> ids;
+  std::vector<std::string> tags, without;
 };
 
-// "A" or "A:B"; a usage Error for anything else.
-std::pair<Id, Id> parse_range(const std::string& option, std::string_view text) {
-  const auto colon = text.find(':');
-  const auto first = text::parse<Id>(text.substr(0, colon));
-  const auto last = colon == text.npos ? first : text::parse<Id>(text.substr(colon + 1));
-  if (!first || !last || *first < 0 || *last < *first)
-    throw text::usage_error(option + " " + std::string(text) + " is no range FIRST:LAST");
-  return {*first, *last};
-}
-
 graph::Part ranges_of_ids(const Graph& graph, const std::vector<std::string>& ids) {
-  std::vector<std::pair<Id, Id>> ranges;
-  ranges.reserve(ids.size());
-  for (const auto& text : ids) {
-    const auto [first, last] = parse_range("--ids", text);
-    const auto there = std::ranges::lower_bound(graph.id, first);
-    if (there == graph.id.end() || *there > last)
-      throw text::usage_error("--ids " + text + ": the graph has no such vertex");
-    ranges.emplace_back(first, last);
+  const auto ranges = cmd::parse_ranges("--ids", ids);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const auto there = std::ranges::lower_bound(graph.id, ranges[k].first);
+    if (there == graph.id.end() || *there > ranges[k].second)
+      throw text::usage_error("--ids " + ids[k] + ": the graph has no such vertex");
   }
   return graph::of_ids(graph, ranges);
 }
 
 graph::Part range_of_poses(const Graph& graph, const std::string& text) {
-  const auto [first, last] = parse_range("--range", text);
+  const auto [first, last] = cmd::parse_range("--range", text);
   const graph::PoseIndex poses = graph::pose_index(graph);
   const auto count = static_cast<Id>(poses.pose.size());
   if (first >= count)
@@ -61,12 +50,41 @@ graph::Part component_of(const Graph& graph, Id id) {
   return graph::component_of(graph, *v);
 }
 
+// The types that these tags mean.
+graph::Types types_of(const Graph& graph, const std::string& option,
+                      const std::vector<std::string>& tags) {
+  graph::Types types{std::vector<bool>(graph.tags.vertices.size(), false),
+                     std::vector<bool>(graph.tags.edges.size(), false)};
+  for (const auto& tag : tags) {
+    const graph::TagMeaning* const meaning = graph.tags.find(tag);
+    if (meaning && meaning->kind == graph::LineKind::vertex) {
+      types.vertex[meaning->type] = true;
+    } else if (meaning && meaning->kind == graph::LineKind::edge) {
+      types.edge[meaning->type] = true;
+    } else {
+      std::vector<std::string> known;
+      for (const auto& [name, count] : formats::count_tags(graph.text.view)) {
+        const graph::TagMeaning* const other = graph.tags.find(name);
+        if (other &&
+            (other->kind == graph::LineKind::vertex || other->kind == graph::LineKind::edge))
+          known.push_back(name);
+      }
+      throw text::usage_error(option + " " + tag + ": no vertex or edge has this tag; " +
+                              text::suggestion(tag, known));
+    }
+  }
+  return types;
+}
+
 graph::Part part(const Graph& graph, const Options& options) {
   if (options.poses)
     return graph::first_steps(graph, graph::pose_index(graph), *options.poses, options.min_obs);
   if (!options.range.empty()) return range_of_poses(graph, options.range);
   if (options.component) return component_of(graph, *options.component);
   if (options.largest) return graph::largest_component(graph);
+  if (!options.tags.empty()) return graph::of_types(graph, types_of(graph, "--tags", options.tags));
+  if (!options.without.empty())
+    return graph::without_types(graph, types_of(graph, "--without", options.without));
   return ranges_of_ids(graph, options.ids);
 }
 
@@ -76,11 +94,13 @@ void check_call(const cmd::Command& command, const Options& options) {
                     {"--range", "poses by index"},
                     {"--component", "what is connected to a vertex"},
                     {"--largest", "the largest connected part"},
-                    {"--ids", "vertices by id"}},
+                    {"--ids", "vertices by id"},
+                    {"--tags", "lines by tag"},
+                    {"--without", "lines of other tags"}},
                    "which part?");
   if (!options.poses) cmd::refuse(command.app, {"--min-obs"}, "without --poses");
-  if (!options.range.empty()) parse_range("--range", options.range);
-  for (const auto& text : options.ids) parse_range("--ids", text);
+  if (!options.range.empty()) cmd::parse_range("--range", options.range);
+  cmd::parse_ranges("--ids", options.ids);
 }
 
 void check_rest(const Graph& graph, const graph::Part& kept) {
@@ -126,6 +146,16 @@ void add_options(cmd::Command& command, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("ID,FIRST:LAST,...");
+  app.add_option("--tags", options.tags,
+                 "Keep vertices of these tags and the edges among\nthem, edges and what they join")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("TAG,...");
+  app.add_option("--without", options.without,
+                 "Leave these out, and what is no pose and joined by\nno edge any more")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("TAG,...");
   cmd::add_entry(app, options.min_obs, "With --poses: a landmark");
   cmd::add_filter_output(command, options.output);
 }

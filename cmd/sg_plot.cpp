@@ -7,7 +7,9 @@
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
+#include "lib/factor/initialize.h"
 #include "lib/order/order.h"
+#include "lib/score/covariance.h"
 #include "lib/text/error.h"
 
 using namespace sg;
@@ -21,6 +23,7 @@ struct Options {
   cmd::MethodOptions method;
   std::string plane = "xy";
   bool cost = false;
+  bool sigma = false;
   plot::PageSize size{600, 600};
 };
 
@@ -35,6 +38,8 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_method(command, options.method);
   app.add_flag("--cost", options.cost, "Of a map: colour what costs by its share of EC")
       ->option_text(" ");
+  app.add_flag("--sigma", options.sigma, "Of a map: ellipses of one standard deviation")
+      ->option_text(" ");
   app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
       ->check(cmd::one_of({"xy", "xz", "yz"}))
       ->option_text("PLANE");
@@ -48,12 +53,35 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_output(app, options.output, "Write to FILE, whole or not at all", cmd::Writes::other);
 }
 
+// Of every vertex, its position's in the plane of two axes.
+std::vector<score::Ellipse> ellipses(const Graph& graph, const graph::Order& order,
+                                     const std::array<int, 2>& axes) {
+  const factor::Problem problem = factor::make_problem(graph);
+  const factor::Values values = factor::start_values(problem);
+  auto elimination = score::eliminated(problem, values, order);
+  if (!elimination) throw score::singular_error(problem, values);
+  const auto covariances = score::vertex_covariances(problem, *elimination);
+  std::vector<score::Ellipse> result;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const Eigen::MatrixXd position = score::position_covariance(
+        problem.space[v], values.data() + problem.value_at[v], covariances[v]);
+    Eigen::Matrix3d in_space = Eigen::Matrix3d::Zero();
+    in_space.topLeftCorner(position.rows(), position.cols()) = position;
+    result.push_back(score::ellipse(in_space(axes, axes)));
+  }
+  return result;
+}
+
 void draw(cairo_t* page, const Options& options, const Graph& graph) {
   const bool map = options.what == "map";
   const std::array axes{options.plane[0] - 'x', options.plane[1] - 'x'};
-  if (map && !options.cost) return plot::draw_map(page, options.size, graph, axes);
+  if (map && !options.cost && !options.sigma)
+    return plot::draw_map(page, options.size, graph, axes);
   const graph::GraphPattern variables = graph::graph_pattern(graph);
   const auto [name, order] = cmd::named_order(options.method, graph, variables);
+  if (options.sigma) {
+    return plot::draw_sigma_map(page, options.size, graph, axes, ellipses(graph, order, axes));
+  }
   if (map) {
     return plot::draw_cost_map(page, options.size, graph, axes,
                                plot::costs(variables, order, name));
@@ -66,9 +94,11 @@ void draw(cairo_t* page, const Options& options, const Graph& graph) {
 
 void run(const cmd::Command& command, const Options& options) {
   if (options.what != "map")
-    cmd::refuse(command.app, {"--cost", "--plane"}, "on a " + options.what + ", only on a map");
-  if (options.what == "map" && !options.cost)
-    cmd::refuse(command.app, {"-m", "--seed"}, "on a map without --cost");
+    cmd::refuse(command.app, {"--cost", "--sigma", "--plane"},
+                "on a " + options.what + ", only on a map");
+  cmd::at_most_one(command.app, {{"--cost", "colours what costs"}, {"--sigma", "draws ellipses"}});
+  if (options.what == "map" && !options.cost && !options.sigma)
+    cmd::refuse(command.app, {"-m", "--seed"}, "on a map without --cost or --sigma");
   const plot::PictureFormat format = plot::picture_format(options.output.path);
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);

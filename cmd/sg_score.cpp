@@ -1,6 +1,7 @@
 // sg-score: what a graph is worth, and what it costs, in one row.
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
@@ -10,7 +11,7 @@
 #include "lib/factor/initialize.h"
 #include "lib/geometry/numbers.h"
 #include "lib/graph/summary.h"
-#include "lib/score/dopt.h"
+#include "lib/score/sigma.h"
 #include "lib/score/trajectory.h"
 #include "lib/trees/connectivity.h"
 
@@ -26,6 +27,7 @@ struct Options {
   std::string weights = "unit";
   std::string reference;
   std::string align = "se";
+  bool per_pose = false;
 };
 
 // What a graph's rows share, whatever the ordering.
@@ -40,6 +42,10 @@ struct Subject {
   std::optional<double> log_trees_ = {};
   std::optional<std::optional<double>> lambda2_ = {};
   std::optional<score::TrajectoryError> error_ = {};
+  std::optional<factor::Problem> problem_ = {};
+  std::optional<factor::Values> values_ = {};
+  std::optional<std::vector<score::PoseSigma>> sigmas_ = {};  // none of a singular graph
+  bool singular = false;                                      // once it has been eliminated
 
   const score::Trajectory& trajectory() {
     return cmd::once(trajectory_, [&] { return score::trajectory(graph); });
@@ -49,6 +55,12 @@ struct Subject {
   }
   std::optional<double> lambda2() {
     return cmd::once(lambda2_, [&] { return trees::algebraic_connectivity(graph, weights); });
+  }
+  const factor::Problem& problem() {
+    return cmd::once(problem_, [&] { return factor::make_problem(graph); });
+  }
+  const factor::Values& values() {
+    return cmd::once(values_, [&] { return factor::start_values(problem()); });
   }
   const score::TrajectoryError& error() {
     return cmd::once(error_, [&] {
@@ -62,15 +74,38 @@ struct Row {
   Subject& of;
   cmd::Method method;
   std::optional<graph::Order> order_ = {};
+  std::optional<std::optional<solve::Elimination>> elimination_ = {};  // nothing if singular
 
   const graph::Order& order() {
     return cmd::once(
         order_, [&] { return cmd::order_by(method, of.options.method, of.graph, of.variables); });
   }
   elim::Wide ec() { return elim::elimination_complexity(of.variables.pattern, order()); }
-  double log_det() {
-    const factor::Problem problem = factor::make_problem(of.graph);
-    return score::log_det_information(problem, factor::start_values(problem), order());
+  std::optional<solve::Elimination>& elimination() {
+    auto& result = cmd::once(elimination_,
+                             [&] { return score::eliminated(of.problem(), of.values(), order()); });
+    of.singular = of.singular || !result;
+    return result;
+  }
+  std::optional<double> log_det() {
+    if (!elimination()) return std::nullopt;
+    return solve::log_determinant(*elimination());
+  }
+  const std::vector<score::PoseSigma>& sigmas() {
+    return cmd::once(of.sigmas_, [&] {
+      if (!elimination()) return std::vector<score::PoseSigma>{};
+      return score::pose_sigmas(of.problem(), of.values(), *elimination());
+    });
+  }
+  std::optional<double> sigma_mean() {
+    if (sigmas().empty()) return std::nullopt;
+    const auto sum = [](double all, const auto& pose) { return all + pose.sigma; };
+    return std::accumulate(sigmas().begin(), sigmas().end(), 0.0, sum) /
+           static_cast<double>(sigmas().size());
+  }
+  std::optional<double> sigma_max() {
+    if (sigmas().empty()) return std::nullopt;
+    return std::ranges::max(sigmas(), {}, &score::PoseSigma::sigma).sigma;
   }
 };
 
@@ -82,6 +117,8 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return row.of.log_trees(); }},
     {"lambda2", "Algebraic connectivity", [](Row& row) { return row.of.lambda2(); }},
     {"dopt", "Log determinant of the information at the file's estimate", &Row::log_det},
+    {"sigma_mean", "Mean standard deviation of a pose's position", &Row::sigma_mean},
+    {"sigma_max", "The largest", &Row::sigma_max},
     {"avg_obs", "Mean number of observations a landmark",
      [](Row& row) { return graph::average_observations(row.of.graph); }},
     {"matched", "Poses that graph and reference share",
@@ -92,6 +129,18 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return row.of.error().rpe; }, "--reference"},
     {"order", "The ordering", [](Row& row) { return row.method.label; }},
     {"ec", "Elimination complexity", &Row::ec},
+};
+
+struct PoseRow {
+  Subject& of;
+  Index vertex;
+  std::optional<double> sigma;
+};
+
+const std::vector<cmd::Column<PoseRow>> pose_columns{
+    {"file", "The file", [](PoseRow& row) { return row.of.file; }, "several files"},
+    {"id", "Of the pose", [](PoseRow& row) { return row.of.graph.id[row.vertex]; }},
+    {"sigma", "Standard deviation of its position", &PoseRow::sigma},
 };
 
 void add_options(cmd::Command& command, Options& options) {
@@ -106,9 +155,11 @@ void add_options(cmd::Command& command, Options& options) {
                   "Move onto it: se (rigidly; the default), sim (and\nscale), none")
       ->option_text("HOW")
       ->check(cmd::one_of({"se", "sim", "none"}));
+  command.app.add_flag("--per-pose", options.per_pose, "A row for every pose")->option_text(" ");
   cmd::add_methods(command, options.method);
   cmd::add_output(command, options.output);
-  cmd::add_table(command, options.table, columns);
+  cmd::add_table(command, options.table,
+                 {{"", cmd::headings(columns)}, {"With --per-pose:", cmd::headings(pose_columns)}});
 }
 
 // A graph's or a trajectory's file, of any format: it need not be that of the graphs.
@@ -142,15 +193,46 @@ void warn_of_reference(const cmd::Command& command, Subject& subject) {
   }
 }
 
-void run(const cmd::Command& command, const Options& options) {
+void warn_if_singular(const cmd::Command& command, Subject& subject) {
+  if (!subject.singular) return;
+  cmd::warn(command, subject.graph.file + ": no dopt and no sigma: " +
+                         score::singular_error(subject.problem(), subject.values()).what());
+}
+
+void print_poses(cmd::Table<PoseRow>& table, Subject& subject, const cmd::Method& method) {
+  Row row{subject, method};
+  for (const score::PoseSigma& pose : row.sigmas()) table.row({subject, pose.vertex, pose.sigma});
+  if (!subject.singular) return;
+  for (Index v = 0; v < subject.graph.vertices(); ++v) {
+    if (subject.graph.role(v) == graph::Role::pose) table.row({subject, v, {}});
+  }
+}
+
+void check_call(const cmd::Command& command, const Options& options) {
   cmd::check_form(command.app);
   if (options.reference.empty()) cmd::refuse(command.app, {"--align"}, "without --reference");
+  if (options.per_pose) {
+    cmd::refuse(command.app, {"--reference", "--weights"}, "with --per-pose");
+    if (options.method.names.size() > 1)
+      throw text::usage_error("-m: one ordering with --per-pose: sigma does not depend on it");
+  } else {
+    check_columns(options);
+  }
   cmd::check(options.method);
-  check_columns(options);
+}
+
+void run(const cmd::Command& command, const Options& options) {
+  check_call(command, options);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
                          {"--reference", !options.reference.empty()}};
   cmd::Output output(options.output.path);
-  cmd::Table table(options.table, columns, given, output);
+  std::optional<cmd::Table<Row>> table;
+  std::optional<cmd::Table<PoseRow>> poses;
+  if (options.per_pose) {
+    poses.emplace(options.table, pose_columns, given, output);
+  } else {
+    table.emplace(options.table, columns, given, output);
+  }
   output.keep_rows();
   std::optional<score::Trajectory> reference;
   if (!options.reference.empty())
@@ -161,8 +243,11 @@ void run(const cmd::Command& command, const Options& options) {
     cmd::stage("score");
     Subject subject{options, reference, path, graph, weights};
     if (reference) warn_of_reference(command, subject);
-    for (const cmd::Method& method : cmd::methods(options.method, graph))
-      table.row({subject, method});
+    for (const cmd::Method& method : cmd::methods(options.method, graph)) {
+      if (table) table->row({subject, method});
+      if (poses) print_poses(*poses, subject, method);
+    }
+    warn_if_singular(command, subject);
   }
   output.commit();
 }

@@ -6,6 +6,7 @@
 #include "formats/bal.h"
 #include "formats/dot.h"
 #include "formats/isam.h"
+#include "formats/kitti.h"
 #include "formats/metis_file.h"
 #include "formats/mtx.h"
 #include "formats/toro.h"
@@ -33,6 +34,7 @@ constexpr std::array formats{
     WriteFormat{"metis", "METIS graph", nothing, write_metis},
     WriteFormat{"dot", "Graphviz", nothing, write_dot},
     WriteFormat{"tum", "TUM trajectory", tum_losses, write_tum, true},
+    WriteFormat{"kitti", "KITTI trajectory", kitti_losses, write_kitti, true},
 };
 
 }  // namespace

@@ -29,7 +29,8 @@ void add_edge_losses(Losses& losses, const Graph& graph, Holds holds_edge);
 void add_vertex_losses(Losses& losses, const Graph& graph, Holds holds_vertex);
 
 struct WriteOptions {
-  bool scalar = false;  // mtx: of the scalar system instead of the block system
+  bool scalar = false;             // mtx: of the scalar system instead of the block system
+  std::vector<std::string> times;  // tum: n, by vertex, instead of its id; or none
 };
 
 struct WriteFormat {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "formats/translate.h"
+#include "formats/tum.h"
 #include "lib/text/line.h"
 
 namespace sg::formats {
@@ -28,6 +29,36 @@ void translate_pose(std::string_view rest, Id id, std::string& out) {
 }
 
 }  // namespace
+
+Losses kitti_losses(const Graph& graph) {
+  Losses losses = tum_losses(graph);
+  Id next = 0;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (is_trajectory_pose(graph, v) && graph.id[v] != next++)
+      add_loss(losses, graph.vertex_line[v], "ids other than 0, 1, 2, ...", false);
+  }
+  return losses;
+}
+
+void write_kitti(const Graph& graph, const WriteOptions&, Sink& sink) {
+  std::string numbers;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (!is_trajectory_pose(graph, v)) continue;
+    numbers.clear();
+    append_pose(graph, v, numbers);
+    std::string_view rest = numbers;
+    Eigen::Vector3d position;
+    Eigen::Quaterniond q;
+    for (double& x : position) x = text::read_number(rest);
+    for (double& x : q.coeffs()) x = text::read_number(rest);
+    Eigen::Matrix<double, 3, 4> pose;
+    pose << q.normalized().toRotationMatrix(), position;
+    std::string line;
+    for (int k = 0; k < 12; ++k) text::append_number(line, pose(k / 4, k % 4));
+    line += '\n';
+    sink.write(std::string_view(line).substr(1));
+  }
+}
 
 bool looks_like_kitti(std::string_view text) {
   return looks_like_table(text, 12);

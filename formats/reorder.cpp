@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lib/text/words.h"
+
 namespace sg::formats {
 namespace {
 
@@ -38,6 +40,16 @@ std::vector<Edit> reordered(const Graph& graph, const std::vector<Index>& order)
     }
   }
   return edits;
+}
+
+void mark_stale_orders(const Graph& graph, std::string_view command, Changes& changes) {
+  if (graph.order_method.empty()) return;
+  for (const Offset line : graph.order_lines) {
+    auto end = line + static_cast<Offset>(graph::line_at(graph, line).size());
+    while (text::is_blank(graph.text.view[end - 1])) --end;
+    if (graph.text.view[end - 1] == ',') continue;
+    changes.edits.push_back({end, end, ", until " + std::string(command) + " changed the graph"});
+  }
 }
 
 }  // namespace sg::formats

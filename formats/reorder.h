@@ -13,4 +13,7 @@ namespace sg::formats {
 // line stays where it is; nothing to do where all is so already.
 std::vector<Edit> reordered(const Graph& graph, const std::vector<Index>& order);
 
+// An ordering was made for the structure that it found: its comment says until which command changed that.
+void mark_stale_orders(const Graph& graph, std::string_view command, Changes& changes);
+
 }  // namespace sg::formats

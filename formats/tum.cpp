@@ -9,11 +9,6 @@
 namespace sg::formats {
 namespace {
 
-bool holds(const Graph& graph, Index v) {
-  const graph::Space space = graph.type_of_vertex(v).space;
-  return space == graph::Space::se2 || space == graph::Space::euler || graph::has_quaternion(space);
-}
-
 void append_planar(std::string_view rest, std::string& out) {
   text::copy_numbers(rest, 2, out);
   const double theta = text::read_number(rest);
@@ -33,35 +28,45 @@ Id id_of_time(std::string_view time) {
 
 }  // namespace
 
+bool is_trajectory_pose(const Graph& graph, Index v) {
+  const graph::Space space = graph.type_of_vertex(v).space;
+  return space == graph::Space::se2 || space == graph::Space::euler || graph::has_quaternion(space);
+}
+
+void append_pose(const Graph& graph, Index v, std::string& out) {
+  auto rest = graph::line_at(graph, graph.vertex_line[v]);
+  const graph::Space space = graph.type_of_vertex(v).space;
+  text::next_word(rest);
+  text::next_word(rest);
+  try {
+    if (space == graph::Space::se2) {
+      append_planar(rest, out);
+    } else if (space == graph::Space::euler) {
+      translate_euler_pose(rest, out);
+    } else {
+      copy_quaternion_pose(rest, out);
+    }
+  } catch (const text::BadLine& bad) {
+    throw graph::error_at(graph, graph.vertex_line[v], bad.cause);
+  }
+}
+
 Losses tum_losses(const Graph& graph) {
   Losses losses;
   for (Index v = 0; v < graph.vertices(); ++v) {
     const graph::VertexType& type = graph.type_of_vertex(v);
-    if (!holds(graph, v))
+    if (!is_trajectory_pose(graph, v))
       add_loss(losses, graph.vertex_line[v], type.tag, type.role == graph::Role::pose);
   }
   return losses;
 }
 
-void write_tum(const Graph& graph, const WriteOptions&, Sink& sink) {
+void write_tum(const Graph& graph, const WriteOptions& options, Sink& sink) {
   std::string out;
   for (Index v = 0; v < graph.vertices(); ++v) {
-    if (!holds(graph, v)) continue;
-    auto rest = graph::line_at(graph, graph.vertex_line[v]);
-    const graph::Space space = graph.type_of_vertex(v).space;
-    text::next_word(rest);
-    out = text::next_word(rest);
-    try {
-      if (space == graph::Space::se2) {
-        append_planar(rest, out);
-      } else if (space == graph::Space::euler) {
-        translate_euler_pose(rest, out);
-      } else {
-        copy_quaternion_pose(rest, out);
-      }
-    } catch (const text::BadLine& bad) {
-      throw graph::error_at(graph, graph.vertex_line[v], bad.cause);
-    }
+    if (!is_trajectory_pose(graph, v)) continue;
+    out = options.times.empty() ? std::to_string(graph.id[v]) : options.times[v];
+    append_pose(graph, v, out);
     sink.write(out += '\n');
   }
 }

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "formats/convert.h"
+#include "formats/reorder.h"
 #include "lib/text/line.h"
-#include "lib/text/words.h"
 
 namespace sg::cmd {
 namespace {
@@ -281,24 +281,13 @@ bool changes_structure(const formats::Changes& changes) {
   return any(changes.drop_vertex) || any(changes.drop_edge) || !changes.append.empty();
 }
 
-// An ordering was made for the structure that it found: the comment that sg-order left says until when.
-void mark_stale_orders(const Command& command, const Graph& graph, formats::Changes& changes) {
-  if (graph.order_method.empty() || !changes_structure(changes)) return;
-  for (const Offset line : graph.order_lines) {
-    auto end = line + static_cast<Offset>(graph::line_at(graph, line).size());
-    while (text::is_blank(graph.text.view[end - 1])) --end;
-    if (graph.text.view[end - 1] == ',') continue;
-    changes.edits.push_back({end, end, ", until " + command.name + " changed the graph"});
-  }
-}
-
 }  // namespace
 
 void write_filtered(const Command& command, const OutputOptions& options, const Graph& graph,
                     formats::Changes changes) {
   stage("write");
   Output output(options.path);
-  mark_stale_orders(command, graph, changes);
+  if (changes_structure(changes)) formats::mark_stale_orders(graph, command.name, changes);
   formats::write_changed(graph, std::move(changes), trace_comment(command, options), output);
   output.commit();
 }

@@ -36,6 +36,9 @@ std::string text(const Cell& cell) {
     std::string operator()(elim::Wide value) const { return elim::to_string(value); }
     std::string operator()(double value) const { return text::format_number(value); }
     std::string operator()(const IdList& ids) const { return joined(ids, " ", text_of_id); }
+    std::string operator()(const NumberList& numbers) const {
+      return joined(numbers, " ", text::format_number);
+    }
     std::string operator()(const IdPairs& pairs) const {
       return joined(pairs, " ", [](const auto& pair) {
         return text_of_id(pair.first) + "-" + text_of_id(pair.second);
@@ -64,6 +67,8 @@ std::string json_of_cell(const Cell& cell) {
   if (const auto* word = std::get_if<std::string>(&value)) return nlohmann::json(*word).dump();
   if (const auto* ids = std::get_if<IdList>(&value))
     return "[" + joined(*ids, ", ", json_of_id) + "]";
+  if (const auto* numbers = std::get_if<NumberList>(&value))
+    return "[" + joined(*numbers, ", ", text::format_number) + "]";
   if (const auto* pairs = std::get_if<IdPairs>(&value)) {
     return "[" +
            joined(*pairs, ", ",

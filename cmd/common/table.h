@@ -28,9 +28,10 @@ namespace sg::cmd {
 // [3, 4].
 using IdList = std::vector<std::int64_t>;
 using IdPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+using NumberList = std::vector<double>;
 struct Cell {
   using Value = std::variant<std::monostate, std::string, bool, std::int64_t, elim::Wide, double,
-                             IdList, IdPairs>;
+                             IdList, IdPairs, NumberList>;
   Value value = {};
 
   Cell() = default;
@@ -42,6 +43,7 @@ struct Cell {
   Cell(const std::convertible_to<std::string_view> auto& text) : value(std::string(text)) {}
   Cell(IdList ids) : value(std::move(ids)) {}
   Cell(IdPairs pairs) : value(std::move(pairs)) {}
+  Cell(NumberList numbers) : value(std::move(numbers)) {}
   template <class T>
   Cell(const std::optional<T>& maybe) : Cell(maybe ? Cell(*maybe) : Cell()) {}
 };

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
@@ -9,6 +11,7 @@
 #include "lib/factor/space.h"
 #include "lib/graph/replay.h"
 #include "lib/text/error.h"
+#include "lib/text/words.h"
 
 namespace sg::plot {
 namespace {
@@ -159,9 +162,9 @@ void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
   draw_scale_bar(page, size, scale);
 }
 
-void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
-                   const std::array<int, 2>& axes, const Costs& costs) {
-  const auto [points, scale] = placed(graph, axes, size);
+namespace {
+
+void draw_faint_edges(cairo_t* page, const Graph& graph, const std::vector<Point>& points) {
   const std::vector<graph::EdgeRole> roles = graph::edge_roles(graph, graph::pose_index(graph));
   set_color(page, faint_color, 0.25);
   cairo_set_line_width(page, 0.4);
@@ -169,6 +172,14 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
        {graph::EdgeRole::observation, graph::EdgeRole::loop_closure, graph::EdgeRole::odometry}) {
     draw_edges(page, graph, roles, role, points);
   }
+}
+
+}  // namespace
+
+void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
+                   const std::array<int, 2>& axes, const Costs& costs) {
+  const auto [points, scale] = placed(graph, axes, size);
+  draw_faint_edges(page, graph, points);
   for (const Index v : costs.ascending) {
     const double value = std::sqrt(costs.vertex[v] / costs.largest);
     set_color(page, heat(value));
@@ -177,6 +188,67 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
   }
   draw_scale_bar(page, size, scale);
   draw_cost_legend(page, size, costs);
+}
+
+namespace {
+
+// How many times as large as they are ellipses are drawn, the largest with half an axis of `longest` metres: as far as
+// the map's margin.
+double enlargement(double longest, double scale) {
+  return longest > 0 ? round_length(margin / (longest * scale)) : 1;
+}
+
+// The first vertex of a role in every square of some points: more ellipses would hide each other.
+std::vector<Index> spread(const Graph& graph, graph::Role role, const std::vector<Point>& points) {
+  constexpr double square = 12;
+  std::set<std::pair<double, double>> taken;
+  std::vector<Index> result;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) != role) continue;
+    const Point& at = points[v];
+    if (taken.emplace(std::floor(at.x / square), std::floor(at.y / square)).second)
+      result.push_back(v);
+  }
+  return result;
+}
+
+void draw_ellipse(cairo_t* page, const Point& at, const score::Ellipse& ellipse, double scale) {
+  cairo_save(page);
+  cairo_translate(page, at.x, at.y);
+  cairo_rotate(page, -ellipse.angle);  // the page's y points down
+  cairo_scale(page, scale * ellipse.axes[0], scale * ellipse.axes[1]);
+  cairo_arc(page, 0, 0, 1, 0, 2 * M_PI);
+  cairo_restore(page);  // or the line would be scaled, too
+}
+
+}  // namespace
+
+void draw_sigma_map(cairo_t* page, const PageSize& size, const Graph& graph,
+                    const std::array<int, 2>& axes, const std::vector<score::Ellipse>& ellipses) {
+  const auto [points, scale] = placed(graph, axes, size);
+  draw_faint_edges(page, graph, points);
+  double longest = 0;
+  for (const score::Ellipse& ellipse : ellipses) longest = std::max(longest, ellipse.axes[0]);
+  const double times = enlargement(longest, scale);
+  cairo_set_line_width(page, 0.5);
+  for (const auto& [role, color] :
+       {std::pair{graph::Role::landmark, landmark_color}, {graph::Role::pose, path_color}}) {
+    for (const Index v : spread(graph, role, points)) {
+      // Cairo draws nothing more once its matrix has become singular.
+      if (!(ellipses[v].axes[1] * times * scale > 1e-6)) continue;
+      draw_ellipse(page, points[v], ellipses[v], times * scale);
+      set_color(page, color, 0.1);
+      cairo_fill_preserve(page);
+      set_color(page, color, 0.8);
+      cairo_stroke(page);
+    }
+  }
+  draw_scale_bar(page, size, scale);
+  set_color(page, {0, 0, 0});
+  cairo_move_to(page, margin, 2 * margin / 3);
+  cairo_show_text(
+      page,
+      ("one standard deviation, drawn " + text::format_number(times) + " times as large").c_str());
 }
 
 }  // namespace sg::plot

@@ -9,6 +9,7 @@
 #include "lib/elim/score.h"
 #include "lib/graph/graph.h"
 #include "lib/graph/pattern.h"
+#include "lib/score/covariance.h"
 
 namespace sg::plot {
 
@@ -32,6 +33,11 @@ void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
 struct Costs;
 void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs);
+
+// The same map with all edges faint, and ellipses of one standard deviation around vertices, so many that they do not
+// hide each other; made larger or smaller by a round factor, which the line at the top says.
+void draw_sigma_map(cairo_t* page, const PageSize& size, const Graph& graph,
+                    const std::array<int, 2>& axes, const std::vector<score::Ellipse>& ellipses);
 
 // R in its order, rows and columns in scalars: what A^T A has in blue, fill in orange.
 void draw_pattern(cairo_t* page, const PageSize& size, const graph::Pattern& pattern,

@@ -72,4 +72,34 @@ Part of_ids(const Graph& graph, const std::vector<std::pair<Id, Id>>& ranges) {
   return part;
 }
 
+Part of_types(const Graph& graph, const Types& types) {
+  Part part;
+  for (const TypeIndex type : graph.vertex_type) part.vertex.push_back(types.vertex[type]);
+  add_edges(graph, part);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (!types.edge[graph.edge_type[e]]) continue;
+    part.edge[e] = true;
+    for (const Index v : graph.edge(e)) part.vertex[v] = true;
+  }
+  return part;
+}
+
+Part without_types(const Graph& graph, const Types& types) {
+  Part part;
+  for (const TypeIndex type : graph.vertex_type) part.vertex.push_back(!types.vertex[type]);
+  add_edges(graph, part);
+  std::vector<bool> had(graph.vertices(), false), has(graph.vertices(), false);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    part.edge[e] = part.edge[e] && !types.edge[graph.edge_type[e]];
+    for (const Index v : graph.edge(e)) {
+      had[v] = true;
+      has[v] = has[v] || part.edge[e];
+    }
+  }
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.role(v) != Role::pose && had[v] && !has[v]) part.vertex[v] = false;
+  }
+  return part;
+}
+
 }  // namespace sg::graph

@@ -30,4 +30,16 @@ Part largest_component(const Graph& graph);
 // The vertices whose id lies in one of the closed ranges, and the edges among them.
 Part of_ids(const Graph& graph, const std::vector<std::pair<Id, Id>>& ranges);
 
+// Marks on types of vertices and edges, by their places in Tags.
+struct Types {
+  std::vector<bool> vertex, edge;
+};
+
+// The vertices of these types and the edges among them, the edges of these types and the vertices that they join.
+Part of_types(const Graph& graph, const Types& types);
+
+// All but the edges of these types and the vertices of these types with their edges; of what is no pose, what
+// has lost its last edge goes as well.
+Part without_types(const Graph& graph, const Types& types);
+
 }  // namespace sg::graph

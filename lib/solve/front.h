@@ -39,6 +39,7 @@ struct Front {
   int f;  // frontal scalars
   int n;  // all rows: frontal, separator, right-hand side
 
+  int s() const { return n - f - 1; }  // separator scalars
   int ld_l() const { return round_up(n); }
   int ld_u() const { return round_up(n - f); }
   std::int64_t size_l() const { return std::int64_t{f} * ld_l(); }
@@ -73,6 +74,14 @@ struct Kernels {
   // dropped: its column becomes zero (NaN where it was that), as if the scalar were held. Returns
   // how many were.
   int (*factorize)(const Front& front, const double* floor);
+
+  // r := L11^-T, f x f by column of leading dimension round_up(f), zero below the diagonal. No pivot of L11 was dropped.
+  void (*invert)(const Front& front, double* r);
+
+  // c := -a b', with c rows x columns, a rows x depth, b columns x depth, by column. The leading dimensions are multiples
+  // of `lane`; what lies below the last row of c is written over.
+  void (*negative_product)(double* c, int ldc, const double* a, int lda, const double* b, int ldb,
+                           int rows, int columns, int depth);
 
   // x has ld_l numbers: x_s in its place, -1 for the right-hand side, 0 elsewhere; fills in x_f.
   void (*back_substitute)(const Front& front, double* x);

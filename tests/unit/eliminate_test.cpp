@@ -1,7 +1,7 @@
 // The multifrontal elimination against dense algebra, and its cliques against lib/elim's.
 #include "lib/solve/eliminate.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
@@ -10,6 +10,7 @@
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
+#include "lib/solve/marginals.h"
 #include "tests/unit/common.h"
 
 using namespace sg::test;
@@ -138,6 +139,35 @@ TEST_CASE("kernels of every instruction set do dense partial Cholesky", "[elimin
             worst = std::max(worst, std::abs(dense.at(i, j) - expected(i, j)));
         }
         CHECK(worst < 1e-7);
+        Eigen::MatrixXd root = Eigen::MatrixXd::Constant(sg::solve::round_up(f), f, 7.0);
+        kernel->invert(dense.front, root.data());
+        const Eigen::MatrixXd identity = root.topRows(f).transpose() * l11;
+        CHECK((identity - Eigen::MatrixXd::Identity(f, f)).norm() < 1e-7);
+        CHECK(root.topRows(f).isUpperTriangular(0));
+      }
+    }
+  }
+}
+
+TEST_CASE("kernels: a product, whatever lies behind its last rows", "[eliminate]") {
+  Random random(3);
+  const auto padded = [&](int rows, int columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(
+        sg::solve::round_up(rows), columns,
+        [&](Eigen::Index, Eigen::Index) { return uniform(random, -1, 1); }));
+  };
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
+    INFO(kernel->name);
+    for (int rows = 1; rows < 80; rows += 1 + rows / 3) {
+      for (int columns = 1; columns < 20; columns += 1 + columns / 4) {
+        const int depth = draw(random, 1, 30);
+        const Eigen::MatrixXd a = padded(rows, depth), b = padded(columns, depth);
+        Eigen::MatrixXd c = padded(rows, columns);
+        const auto ld = [](const Eigen::MatrixXd& m) { return static_cast<int>(m.rows()); };
+        kernel->negative_product(c.data(), ld(c), a.data(), ld(a), b.data(), ld(b), rows, columns,
+                                 depth);
+        const Eigen::MatrixXd expected = -a.topRows(rows) * b.topRows(columns).transpose();
+        CHECK((c.topRows(rows) - expected).norm() < 1e-12 * (1 + expected.norm()));
       }
     }
   }
@@ -329,5 +359,33 @@ TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
     REQUIRE(sg::solve::eliminate(parallel, system).empty());
     sg::solve::back_substitute(parallel, threaded);
     CHECK(threaded == step);
+  }
+}
+
+TEST_CASE("marginal covariances are blocks of the dense inverse", "[eliminate]") {
+  for (int trial = 0; trial < 100; ++trial) {
+    Random random(100 + trial);
+    const int n = draw(random, 1, 40);
+    System system = random_system(random, n, draw(random, 0, 3 * n));
+    system.linear.pattern = &system.pattern;
+    const Dense full = dense(system);
+    const Eigen::MatrixXd inverse = (full.a.transpose() * full.a).inverse();
+    auto elimination = sg::solve::plan_elimination(system.linear, shuffled(random, n));
+    REQUIRE(sg::solve::eliminate(elimination, system.linear).empty());
+    const auto blocks = sg::solve::marginal_covariances(elimination);
+    double worst = 0;
+    for (int j = 0; j < n; ++j) {
+      const int at = elimination.step_at[j], dim = system.pattern.dim[j];
+      worst = std::max(worst, (blocks[j] - inverse.block(at, at, dim, dim)).norm());
+    }
+    CHECK(worst < 1e-9 * inverse.norm());
+    std::vector<sg::Index> some;
+    for (int k = draw(random, 1, 4); k > 0; --k) some.push_back(draw(random, 0, n - 1));
+    std::vector<int> rows;
+    for (const sg::Index j : some) {
+      for (int k = 0; k < system.pattern.dim[j]; ++k) rows.push_back(elimination.step_at[j] + k);
+    }
+    const Eigen::MatrixXd joint = sg::solve::joint_covariance(elimination, some);
+    CHECK((joint - inverse(rows, rows)).norm() < 1e-9 * inverse.norm());
   }
 }

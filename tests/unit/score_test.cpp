@@ -6,10 +6,12 @@
 #include <numbers>
 
 #include "formats/formats.h"
+#include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
 #include "lib/graph/summary.h"
 #include "lib/order/order.h"
-#include "lib/score/dopt.h"
+#include "lib/score/covariance.h"
+#include "lib/score/sigma.h"
 #include "lib/score/trajectory.h"
 #include "lib/trees/connectivity.h"
 #include "tests/unit/common.h"
@@ -64,7 +66,71 @@ std::vector<Edge> complete(int n) {
 double log_det(const Graph& graph) {
   const factor::Problem problem = factor::make_problem(graph);
   const graph::Order order = order::elimination_order("colamd", problem.variables.pattern);
-  return score::log_det_information(problem, factor::file_values(problem), order);
+  auto elimination = score::eliminated(problem, factor::file_values(problem), order);
+  return elimination ? solve::log_determinant(*elimination) : -infinity;
+}
+
+// A' A, by scalar of a step, of the graph's edges and of the gauge.
+MatrixXd dense_information(const factor::Problem& problem, const factor::Values& values) {
+  factor::LinearSystem system = factor::make_linear_system(problem);
+  factor::linearize(problem, values, {}, system);
+  MatrixXd information = MatrixXd::Zero(problem.step_at.back(), problem.step_at.back());
+  for (Index r = 0; r < system.pattern->rows.size(); ++r) {
+    MatrixXd jacobian = MatrixXd::Zero(system.height[r], problem.step_at.back());
+    const double* block = system.block(r);
+    for (const Index j : system.pattern->rows[r]) {
+      const int dim = system.pattern->dim[j];
+      jacobian.middleCols(problem.step_at[j], dim) =
+          Eigen::Map<const MatrixXd>(block, system.height[r], dim);
+      block += std::ptrdiff_t{dim} * system.height[r];
+    }
+    information += jacobian.transpose() * jacobian;
+  }
+  return information;
+}
+
+// All vertices' covariances in one matrix, by vertex: zero of what no measurement may move. Nothing of a graph that
+// leaves something undetermined, by more digits than there are.
+std::optional<MatrixXd> dense_covariance(const factor::Problem& problem,
+                                         const factor::Values& values) {
+  const Graph& graph = *problem.graph;
+  std::vector<int> moving, of_all;
+  int row = 0;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    const Index j = problem.variables.vertex_variable[v];
+    for (int k = 0; k < graph.dim(v); ++k, ++row) {
+      if (j < 0 || (j == problem.held && k < factor::held_dim(problem))) continue;
+      moving.push_back(problem.step_at[j] + k);
+      of_all.push_back(row);
+    }
+  }
+  MatrixXd result = MatrixXd::Zero(row, row);
+  if (moving.empty()) return result;
+  const MatrixXd information = dense_information(problem, values)(moving, moving);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information);
+  if (solver.eigenvalues()[0] < 1e-10 * solver.eigenvalues().tail(1)[0]) return std::nullopt;
+  result(of_all, of_all) = information.inverse().eval();
+  return result;
+}
+
+// Lines of a file of testdata, some edges left out, some vertices fixed.
+std::string thinned(Random& random, const std::string& name) {
+  const Graph graph = test_graph(name);
+  std::string text(graph.text.view);
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (draw(random, 0, 9) > 0) continue;
+    const auto line = graph::line_at(graph, graph.edge_line[e]);
+    std::fill_n(text.begin() + graph.edge_line[e], line.size(), ' ');
+  }
+  for (int fixed = draw(random, 0, 2); fixed > 0; --fixed)
+    text += "\nFIX " + std::to_string(graph.id[draw(random, 0, graph.vertices() - 1)]) + "\n";
+  return text;
+}
+
+// Where a vertex is, as its file's line says it.
+Eigen::VectorXd place(const factor::Problem& problem, const factor::Values& values, Index v) {
+  const std::vector<double> numbers = factor::estimate_numbers(problem, values, v);
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), graph::facts(problem.space[v]).position);
 }
 
 score::Trajectory flat(const std::vector<std::array<double, 3>>& poses) {
@@ -177,22 +243,81 @@ TEST_CASE("D-optimality is the log determinant of the dense system", "[score]") 
     const std::string measured = text_of_graph(n, edges);
     const Graph graph = graph_of(text + measured.substr(measured.find("EDGE")));
     const factor::Problem problem = factor::make_problem(graph);
-    factor::LinearSystem system = factor::make_linear_system(problem);
-    factor::linearize(problem, factor::file_values(problem), {}, system);
-    MatrixXd information = MatrixXd::Zero(3 * n, 3 * n);
-    for (Index r = 0; r < system.pattern->rows.size(); ++r) {
-      const auto row = system.pattern->rows[r];
-      MatrixXd jacobian = MatrixXd::Zero(system.height[r], 3 * n);
-      for (std::size_t k = 0; k < row.size(); ++k) {
-        jacobian.middleCols(3 * row[k], 3) = Eigen::Map<const MatrixXd>(
-            system.block(r) + 3 * k * system.height[r], system.height[r], 3);
-      }
-      information += jacobian.transpose() * jacobian;
-    }
+    const MatrixXd information = dense_information(problem, factor::file_values(problem));
     CHECK(log_det(graph) == Approx(std::log(information.determinant())).margin(1e-9));
     // The first pose is held: its own block is the identity, and nothing else touches it.
     const double reduced = information.bottomRightCorner(3 * n - 3, 3 * n - 3).determinant();
     CHECK(log_det(graph) == Approx(std::log(reduced)).margin(1e-9));
+  }
+}
+
+TEST_CASE("covariances are blocks of the dense inverse, of every type", "[score]") {
+  int checked = 0;
+  for (const char* name :
+       {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o", "desk.bal", "walk.g2o"}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      Random random(100 + trial);
+      INFO(name << ", trial " << trial);
+      const Graph graph = test::graph_of(thinned(random, name));
+      const factor::Problem problem = factor::make_problem(graph);
+      const factor::Values values = factor::start_values(problem);
+      const auto dense = dense_covariance(problem, values);
+      if (!dense) continue;
+      ++checked;
+      auto elimination = score::eliminated(problem, values,
+                                           shuffled(random, problem.variables.pattern.variables()));
+      REQUIRE(elimination);
+      const auto blocks = score::vertex_covariances(problem, *elimination);
+      std::vector<int> at{0};
+      for (Index v = 0; v < graph.vertices(); ++v) at.push_back(at.back() + graph.dim(v));
+      const double bound = 1e-7 * dense->norm();
+      double worst = 0;
+      for (Index v = 0; v < graph.vertices(); ++v) {
+        const int dim = graph.dim(v);
+        worst = std::max(worst, (blocks[v] - dense->block(at[v], at[v], dim, dim)).norm());
+      }
+      CHECK(worst < bound);
+      for (int pair = 0; pair < 10; ++pair) {
+        const Index a = draw(random, 0, graph.vertices() - 1);
+        const Index b = draw(random, 0, graph.vertices() - 1);
+        std::vector<int> rows;
+        for (const Index v : {a, b}) {
+          for (int k = at[v]; k < at[v + 1]; ++k) rows.push_back(k);
+        }
+        const MatrixXd joint = score::joint_covariance(problem, *elimination, a, b);
+        CHECK((joint - (*dense)(rows, rows)).norm() < bound);
+      }
+    }
+  }
+  CHECK(checked > 60);
+}
+
+TEST_CASE("a position's covariance is that of where its file's line puts it", "[score]") {
+  Random random(7);
+  for (const char* name : {"types-se2.g2o", "types-se3.g2o", "types-expmap.g2o", "desk.bal"}) {
+    const Graph graph = test_graph(name);
+    const factor::Problem problem = factor::make_problem(graph);
+    const factor::Values values = factor::start_values(problem);
+    for (Index v = 0; v < graph.vertices(); ++v) {
+      const int dim = graph.dim(v);
+      MatrixXd jacobian(place(problem, values, v).size(), dim);
+      for (int k = 0; k < dim; ++k) {
+        const auto moved = [&](double h) {
+          factor::Values there = values;
+          std::vector<double> step(dim, 0.0);
+          step[k] = h;
+          factor::retract(problem.space[v], step.data(), there.data() + problem.value_at[v]);
+          return place(problem, there, v);
+        };
+        jacobian.col(k) = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+      }
+      const MatrixXd root = MatrixXd::NullaryExpr(dim, dim, [&] { return uniform(random, -1, 1); });
+      const MatrixXd covariance = root * root.transpose();
+      const MatrixXd position = score::position_covariance(
+          problem.space[v], values.data() + problem.value_at[v], covariance);
+      INFO(name << " vertex " << graph.id[v]);
+      CHECK((position - jacobian * covariance * jacobian.transpose()).norm() < 1e-6);
+    }
   }
 }
 

@@ -5,7 +5,7 @@ load ../common
 setup() { cd "$BATS_TEST_TMPDIR"; }
 
 MAN=$TESTDATA/../man
-tables='bayes ec elim info isam2 predict score solve tgreedy'
+tables='bayes diff ec elim info isam2 predict score solve tgreedy'
 
 # declared COMMAND: "name TAB meaning" of every column, as -f help has them.
 declared() { sg-"$1" -f help | sed -nE 's/ \(with .*\)$//; s/^([a-z_0-9]+) +/\1\t/p'; }

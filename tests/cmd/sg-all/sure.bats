@@ -2,8 +2,8 @@ load ../common
 
 # What no command may get wrong. Each of these reads a graph; each of the filters writes one as well. sg-check, which reads
 # on where others stop, and sg-gen, which reads nothing, have their own lines below.
-filters=('sg-cut --largest' 'sg-order -m id' 'sg-dec -r 2' 'sg-rand -r 2' 'sg-kf -r 2' 'sg-tgreedy -r 2')
-readers=("${filters[@]}" sg-bayes sg-convert sg-ec sg-elim sg-info sg-isam2 'sg-plot map' 'sg-predict -r 2' sg-score sg-solve)
+filters=('sg-cut --largest' sg-merge 'sg-order -m id' 'sg-dec -r 2' 'sg-rand -r 2' 'sg-kf -r 2' 'sg-tgreedy -r 2')
+readers=("${filters[@]}" sg-bayes sg-convert sg-cov 'sg-diff walk.g2o' sg-ec sg-elim sg-info sg-isam2 'sg-plot map' 'sg-predict -r 2' sg-score sg-solve)
 
 setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 
@@ -183,7 +183,7 @@ alone() { [ "$(ls)" = "$(printf '%s\n' "$@" | sort)" ] || { ls >&2; return 1; };
 @test "a filter that removes nothing gives the same bytes" {
   { printf '# head\r\n\n \tVERTEX_SE2 0 0 0 0\r\nROBOTLASER1 0 1 2\nVERTEX_SE2  1 1e0 +0 -0\nFIX 0 0\r\n# between\n'
     printf 'VERTEX_XY 9 1 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\r\n\r\nEDGE_SE2_XY 0 9 1 1 1 0 1\nEDGE_SE2_XY 1 9 0 1 1 0 1'; } >in.g2o
-  for filter in 'sg-cut --largest' 'sg-dec -r 1' 'sg-rand -p 1' 'sg-tgreedy -p 1' 'sg-kf -r 1' 'sg-convert'; do
+  for filter in 'sg-cut --largest' sg-merge 'sg-dec -r 1' 'sg-rand -p 1' 'sg-tgreedy -p 1' 'sg-kf -r 1' 'sg-convert'; do
     option=--no-trace-comment
     if [ "$filter" = sg-convert ]; then option=; fi
     $filter $option in.g2o >out.g2o

@@ -120,8 +120,68 @@ near() {
   done
 }
 
+@test "KITTI: a matrix a pose, and back" {
+  sg-convert --to kitti square.toro >square.kitti 2>said
+  [ ! -s said ]
+  awk '{m = m || NF != 12} END {exit m || NR != 4}' square.kitti
+  sg-convert --to tum square.kitti >back.tum
+  near back.tum <(sg-convert --to tum square.toro)
+  printf 'VERTEX_SE2 3 1 2 0\nVERTEX_SE2 5 1 2 0\n' >odd.g2o
+  fails 0 "sg-convert: odd.g2o:1: kitti cannot hold ids other than 0, 1, 2, ... (2 lines, left out)" sg-convert --to kitti odd.g2o
+}
+
+@test "times of a table" {
+  printf '# of the run\nid time\n4 1e9 x\n0\t0.50\n1 1305031102.175304\n2 2\n3 3\n99 7\n' >times
+  [ "$(sg-convert -q --to tum --times times walk.g2o | cut -d ' ' -f 1,2 | xargs)" = "0.50 0 1305031102.175304 1 2 2 3 3 1e9 4" ]
+  fails 1 "sg-convert: <stdin>: it has no time of vertex 3" bash -c 'grep -v "^3" times | sg-convert -q --to tum --times - walk.g2o'
+  fails 1 "sg-convert: <stdin>:2: a line of times is an id and a time" bash -c 'printf "0 1\n1\n" | sg-convert --to tum --times - walk.g2o'
+  fails 1 "sg-convert: <stdin>:2: vertex 0 has a time already" bash -c 'printf "0 1\n0 1\n" | sg-convert --to tum --times - walk.g2o'
+  fails 2 "sg-convert: --times has no effect without --to tum (see sg-convert --help)" sg-convert --times times walk.g2o
+}
+
+@test "ids counted from 0, poses first: what iSAM wants" {
+  printf 'VERTEX_XY 3 0 0\nVERTEX_SE2 70 0 0 0\nVERTEX_SE2  5 0 0 0\nFIX 5\nEDGE_SE2 5 70 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 70 3 0 0 1 0 1\n' >in.g2o
+  sg-convert --renumber in.g2o >out.g2o
+  printf 'VERTEX_XY 2 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_SE2  0 0 0 0\nFIX 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 1 2 0 0 1 0 1\n' | cmp - out.g2o
+  run -1 sg-convert --to isam in.g2o
+  sg-convert -q --renumber --to isam in.g2o >out.isam
+  sg-convert --renumber walk.g2o | sg-convert --renumber | cmp - <(sg-convert --renumber walk.g2o)
+}
+
+@test "information scaled, by tag; constants added" {
+  sg-convert --scale-information EDGE_SE2_XY=0.5 --scale-information EDGE_SE2=2 walk.g2o >out.g2o
+  sed '/^EDGE_SE2_XY/s/100 0 100$/50 0 50/; /^EDGE_SE2 /s/400 0 0 400 0 2500/800 0 0 800 0 5000/' walk.g2o | cmp - out.g2o
+  fails 2 "sg-convert: --scale-information EDGE_SE2: wants TAG=X, as in EDGE_MINE=0.5 (see sg-convert --help)" sg-convert --scale-information EDGE_SE2 walk.g2o
+  fails 2 "sg-convert: --scale-information EDGE_SE2=0: the factor has to be above 0 (see sg-convert --help)" sg-convert --scale-information EDGE_SE2=0 walk.g2o
+  fails 2 "sg-convert: --scale-information FIX=1: no edge is known by this tag (see sg-convert --help)" sg-convert --scale-information FIX=1 walk.g2o
+  fails 2 "sg-convert: --scale-information EDGE_SE2_LOTSOFXY=2: where its lines hold information is not known here (see sg-convert --help)" \
+    sg-convert --scale-information EDGE_SE2_LOTSOFXY=2 walk.g2o
+  sg-convert --fix 0,3,3 walk.g2o | cmp - <(cat walk.g2o; echo FIX 3)
+  fails 2 "sg-convert: --fix: the graph has no vertex 9 (see sg-convert --help)" sg-convert --fix 9 walk.g2o
+}
+
+@test "the Hessian: J' W J of a graph that can be told by hand" {
+  printf 'VERTEX_XY 1 0 0\nVERTEX_XY 2 1 1\nVERTEX_XY 3 1 1\nFIX 3\nEDGE_POINTXY 1 2 1 1 4 1 9\nEDGE_PRIOR_XY 2 0 0 2 0 2\nEDGE_POINTXY 3 1 1 1 1 0 1\n' >in.g2o
+  sg-convert --to mtx --values in.g2o | awk '/^%/ || !head++ {next} {print $1, $2, $3 - 0}' | sort >said
+  # Information 4 1 9 of the difference, 2 0 2 of the prior, 1 0 1 to the constant.
+  printf '%s\n' '1 1 5' '2 1 1' '2 2 10' '3 1 -4' '3 2 -1' '3 3 6' '4 1 -1' '4 2 -9' '4 3 1' '4 4 11' >wanted
+  near said wanted
+  sg-convert --to mtx --values in.g2o | sed -n 1p | grep -qx '%%MatrixMarket matrix coordinate real symmetric'
+  # Of relative measurements alone nothing is held: a row of the first pose is like any other.
+  printf 'VERTEX_XY 1 0 0\nVERTEX_XY 2 1 1\nEDGE_POINTXY 1 2 1 1 4 0 4\n' | sg-convert --to mtx --values | grep -qx '1 1 4'
+  fails 2 "sg-convert: --values has no effect without --to mtx (see sg-convert --help)" sg-convert --values walk.g2o
+  fails 2 "sg-convert: --scalar has no effect with --values, which are scalars (see sg-convert --help)" \
+    sg-convert --to mtx --values --scalar walk.g2o
+}
+
+@test "the pattern of the Hessian is that of --scalar" {
+  for graph in walk.g2o types-se3.g2o; do
+    cmp <(sg-convert --to mtx --scalar $graph | sed 1,3d | sort) <(sg-convert --to mtx --values $graph | sed 1,3d | cut -d ' ' -f 1,2 | sort)
+  done
+}
+
 @test "wrong calls" {
-  fails 2 "sg-convert: no format 'obj'; there are g2o, toro, isam, bal, mtx, metis, dot, tum (see sg-convert --help)" \
+  fails 2 "sg-convert: no format 'obj'; there are g2o, toro, isam, bal, mtx, metis, dot, tum, kitti (see sg-convert --help)" \
     sg-convert --to obj walk.g2o
   fails 2 "sg-convert: --scalar has no effect without --to mtx (see sg-convert --help)" sg-convert --scalar walk.g2o
 }

@@ -36,6 +36,21 @@ vertices() { awk '/^VERTEX/ {print $2}' "$@" | paste -sd ' '; }
   [ "$(edges out.g2o)" = "0-1 1-2 2-101" ]
 }
 
+@test "tags, or all but tags" {
+  sg-cut --tags VERTEX_SE2 walk.g2o >out.g2o
+  [ "$(vertices out.g2o)" = "0 1 2 3 4" ]
+  [ "$(edges out.g2o)" = "0-1 1-2 2-3 3-4 4-0" ]
+  [ "$(sg-cut --tags EDGE_SE2_XY walk.g2o | edges)" = "0-100 1-100 2-100 2-101 3-101 4-101" ]
+  sg-cut --without EDGE_SE2_XY walk.g2o >out.g2o
+  [ "$(vertices out.g2o)" = "0 1 2 3 4" ]  # no edge joins the landmarks any more
+  cmp <(sed 1,2d out.g2o) <(sg-cut --without VERTEX_XY walk.g2o | sed 1,2d)
+  [ "$(sg-cut --without EDGE_SE2 walk.g2o | vertices)" = "0 1 2 3 4 100 101" ]
+  sg-cut --without EDGE_SE3:QUAT --no-trace-comment walk.g2o | cmp - walk.g2o
+  fails 2 "sg-cut: --without EDGE_SE2XY: no vertex or edge has this tag; did you mean EDGE_SE2_XY? There are VERTEX_SE2, VERTEX_XY, EDGE_SE2, EDGE_SE2_XY (see sg-cut --help)" \
+    sg-cut --without EDGE_SE2XY walk.g2o
+  fails 1 "sg-cut: walk.g2o: the part holds no vertex and no edge" sg-cut --tags EDGE_SE3:QUAT walk.g2o
+}
+
 @test "what stays keeps its bytes; the comment stands below those at the head" {
   printf '# one\r\n# two\n VERTEX_SE2 1  1.0 0 -0\r\nROBOTLASER1 0 1\nVERTEX_SE2 2 0 0 0\nROBOTLASER1 0 2\n# x\nFIX 2 1\r\n' >in.g2o
   printf 'EDGE_SE2  1 2 0 0 0 1 0 0 1 0 1\nEDGE_PRIOR_SE2 1 +1 0 0 1 0 0 1 0 1' >>in.g2o
@@ -60,7 +75,7 @@ vertices() { awk '/^VERTEX/ {print $2}' "$@" | paste -sd ' '; }
 }
 
 @test "wrong calls" {
-  one="sg-cut: which part? Give one of --poses, --range, --component, --largest, --ids (see sg-cut --help)"
+  one="sg-cut: which part? Give one of --poses, --range, --component, --largest, --ids, --tags, --without (see sg-cut --help)"
   fails 2 "$one" sg-cut walk.g2o
   fails 2 "sg-cut: which part? --poses keeps the first steps, --largest the largest connected part: give one of them (see sg-cut --help)" \
     sg-cut --largest --poses 3 walk.g2o

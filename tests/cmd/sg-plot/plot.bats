@@ -38,6 +38,22 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   printf 'VERTEX_SE2 1 5 5 0\nFIX 1\n' | sg-plot map --cost >/dev/null
 }
 
+@test "ellipses of one standard deviation" {
+  # 276 points a metre; the ellipse of 1 is a circle of half a metre, that of 2 is 1.22 metres long, across the way:
+  # 0.05 of that, or 5 times a hundredth, is within 24 points
+  printf 'VERTEX_SE2 %s 0 0\n' "0 0" "1 1" "2 2" >chain.g2o
+  printf 'EDGE_SE2 %s 1 0 0 4 0 0 4 0 1\n' "0 1" "1 2" >>chain.g2o
+  sed 's/ 4 0 0 4 0 1$/ 40000 0 0 40000 0 10000/' chain.g2o >sure.g2o
+  for graph in chain sure; do
+    sg-plot map --sigma $graph.g2o | grep -o "fill:$path;fill-opacity:0.1.* d=\"M [^C]*" | grep -o 'M .*' >around
+    [ "$(paste -sd';' around)" = "M 300 293.101562 ;M 576 283.097656 " ]
+  done
+  sg-plot map --sigma --plane xz walk.g2o >/dev/null
+  fails 2 "sg-plot: --sigma has no effect on a tree, only on a map (see sg-plot --help)" sg-plot tree --sigma chain.g2o
+  run -3 sg-plot map --sigma <(grep -v 'E.*1 2' chain.g2o)
+  [[ $output == "sg-plot: the system is singular: the measurements leave vertex 2 undetermined"* ]]
+}
+
 @test "the pattern of R tells fill from the system" {
   # 2 goes first and joins 1 and 3
   printf '2\n1\n3\n' >order

@@ -14,7 +14,7 @@ edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; do
 }
 
 @test "a graph in two parts, and a single vertex" {
-  [ "$(score -f log_trees,lambda2,dopt <(edges 0-1 2-3))" = "-inf 0 -inf" ]
+  [ "$(score -f log_trees,lambda2 <(edges 0-1 2-3))" = "-inf 0" ]
   [ "$(sg-score --json -f log_trees,lambda2 <(edges 0-1 2-3))" = '{"log_trees": null, "lambda2": 0}' ]
   echo 'VERTEX_SE2 0 0 0 0' >one.g2o
   [ "$(score -f log_trees,lambda2,dopt,ec one.g2o)" = "0  0 27" ]
@@ -33,9 +33,39 @@ edges() { for pair in "$@"; do echo "EDGE_SE2 ${pair/-/ } 0 0 0 1 0 0 1 0 1"; do
 }
 
 @test "default columns" {
-  [ "$(sg-score walk.g2o | head -1 | tr '\t' ' ')" = "vertices edges log_trees lambda2 dopt avg_obs order ec" ]
+  [ "$(sg-score walk.g2o | head -1 | tr '\t' ' ')" = "vertices edges log_trees lambda2 dopt sigma_mean sigma_max avg_obs order ec" ]
   [ "$(sg-score --reference walk.g2o walk.g2o walk.g2o | head -1 | tr '\t' ' ')" = \
-    "file vertices edges log_trees lambda2 dopt avg_obs matched ate_rmse rpe_rmse order ec" ]
+    "file vertices edges log_trees lambda2 dopt sigma_mean sigma_max avg_obs matched ate_rmse rpe_rmse order ec" ]
+}
+
+@test "sigmas of a chain by hand" {
+  # variances of x and y add up, and the turn of the first step moves the last pose by a metre
+  printf 'VERTEX_SE2 %s 0 0\n' "0 0" "1 1" "2 2" >chain.g2o
+  printf 'EDGE_SE2 %s 1 0 0 4 0 0 4 0 1\n' "0 1" "1 2" >>chain.g2o
+  sg-score --per-pose --no-header chain.g2o >out
+  [ "$(sed -n 1p out)" = "0	0" ]
+  near "$(sed -n 2p out | cut -f2)" 0.7071067811865476  # sqrt(1/4 + 1/4)
+  near "$(sed -n 3p out | cut -f2)" 1.4142135623730951  # sqrt(1/2 + 1/2 + 1)
+  near "$(score -f sigma_mean chain.g2o)" 0.7071067811865476
+  near "$(score -f sigma_max chain.g2o)" 1.4142135623730951
+}
+
+@test "a graph that leaves something undetermined has no dopt and no sigma, and is told of it" {
+  edges 0-1 2-3 >parts.g2o
+  run -0 --separate-stderr sg-score --no-header -f edges,dopt,sigma_mean,sigma_max parts.g2o
+  [ "$output" = "2			" ]
+  [[ $stderr == "sg-score: parts.g2o: no dopt and no sigma: the system is singular: "*" leave vertices 2 and 3 undetermined"* ]]
+  [ "$(sg-score -q --json -f dopt,sigma_max parts.g2o)" = '{"dopt": null, "sigma_max": null}' ]
+  [ "$(sg-score -q --no-header --per-pose parts.g2o | tr '\t\n' '-;')" = "0-;1-;2-;3-;" ]
+  [ "$(sg-score --no-header -f edges parts.g2o 2>&1)" = 2 ]  # nobody asked
+}
+
+@test "a row a pose, of several files, and what is in vain with it" {
+  [ "$(sg-score --per-pose walk.g2o walk.g2o | head -1 | tr '\t' ' ')" = "file id sigma" ]
+  [ "$(sg-score --per-pose --no-header -f file,id walk.g2o walk.g2o | wc -l)" -eq 10 ]
+  fails 2 "sg-score: --weights has no effect with --per-pose (see sg-score --help)" sg-score --per-pose --weights unit walk.g2o
+  fails 2 "sg-score: -m: one ordering with --per-pose: sigma does not depend on it (see sg-score --help)" \
+    sg-score --per-pose -m id,wmf walk.g2o
 }
 
 @test "trajectory errors by hand, against a graph and a TUM file" {
