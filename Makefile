@@ -18,7 +18,7 @@ plot_packages  := gnuplot-nox graphviz
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check mutants install uninstall bench fuzz tsan paper orderings lint format clean
+.PHONY: help deps build demo check mutants install uninstall bench fuzz tsan paper orderings starts lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -91,6 +91,10 @@ paper: build build/packages/plot ## reproduce every figure and table of the pape
 
 orderings: build build/packages/plot ## every ordering on every graph, into out/orderings (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/orderings OUT=$(CURDIR)/out/orderings \
+	  GRAPHS="$(abspath $(GRAPHS))"
+
+starts: build ## every start of sg-solve on every graph, into out/starts (GRAPHS="..." adds yours)
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/starts OUT=$(CURDIR)/out/starts \
 	  GRAPHS="$(abspath $(GRAPHS))"
 
 SOURCES = $(shell git ls-files '*.h' '*.cpp')

@@ -70,7 +70,7 @@ optimum() {
 }
 
 @test "a start that is none, or that the file has not, is told" {
-  fails 2 "sg-solve: no start chordial: it is file, odometry, chordal, tree, isam2 (did you mean chordal?)" \
+  fails 2 "sg-solve: no start 'chordial': did you mean chordal? There are file, odometry, chordal, tree, isam2 (see sg-solve --help)" \
     sg-solve --start chordial "$TESTDATA/walk.g2o"
   grep -v ^VERTEX "$TESTDATA/walk.g2o" > edges.g2o
   fails 1 "sg-solve: edges.g2o: the file has no VERTEX lines" sg-solve --start file edges.g2o
