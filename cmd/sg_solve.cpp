@@ -21,7 +21,9 @@
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/batch.h"
+#include "lib/solve/best_start.h"
 #include "lib/solve/front.h"
+#include "lib/solve/start.h"
 #include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
@@ -75,11 +77,11 @@ struct Options {
   bool certify = false;
   std::string weights;  // FILE, or empty
   std::vector<Id> fixed;
-  bool from_edges = false;
+  std::string start;
   bool keep = false;
 };
 
-constexpr int most_iterations = 100;
+constexpr int most_iterations = 1000;
 
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
@@ -88,7 +90,7 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
   app.add_option(
          "-i,--iterations", options.iterations,
-         "At most N iterations, and write what they reach\n(default: 100, which have to converge)")
+         "At most N iterations, and write what they reach\n(default: 1000, which have to converge)")
       ->option_text("N")
       ->transform(cmd::whole(0));
   app.add_option("--tolerance", options.tolerance,
@@ -110,7 +112,10 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_option("-j,--threads", options.threads, "Use N threads (default: all cores)")
       ->option_text("N")
       ->transform(cmd::whole(1, 4096));
-  app.add_flag("--init", options.from_edges, "Start from the edges alone, not from the file");
+  app.add_option("--start", options.start, "Start from " + solve::start_names())
+      ->option_text("NAME");
+  app.add_flag_callback(
+      "--init", [&options] { options.start = "odometry"; }, "The same as --start odometry");
   app.add_flag("--keep", options.keep, "Write the graph even if it did not converge");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
   app.add_flag("--residuals", options.residuals,
@@ -239,12 +244,11 @@ void check_converged(const cmd::Command& command, const Options& options,
                             " iterations, chi-square " + text::format_number(result.chi2);
   if (result.stopped) return cmd::warn(command, "interrupted: " + cause);
   if (options.iterations || options.keep) return cmd::warn(command, cause);
-  throw text::computation_error(
-      cause + ", from " + text::format_number(result.initial_chi2) +
-      "; nothing is written (--keep would): try " +
-      (options.gauss_newton ? "it without --gn, " : "--gn, ") +
-      (options.from_edges ? "the file's start (without --init)" : "--init") +
-      ", --kernel cauchy:1, or more iterations (-i N)");
+  throw text::computation_error(cause + ", from " + text::format_number(result.initial_chi2) +
+                                "; nothing is written (--keep would): try " +
+                                (options.gauss_newton ? "it without --gn, " : "--gn, ") +
+                                (options.start.empty() ? "--start isam2" : "it without --start") +
+                                ", --kernel cauchy:1, or more iterations (-i N)");
 }
 
 // What every edge counts at the estimates, as a table.
@@ -284,9 +288,33 @@ void warn_of_scale(const cmd::Command& command) {
             "that measures a length)");
 }
 
-void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem,
-           factor::Values values) {
+// Where the user says, or the best of several.
+std::vector<solve::Candidate> candidates(const Options& options, const factor::Problem& problem) {
+  const factor::Loss loss = cmd::loss(options.robust, *problem.graph);
+  if (options.start.empty() && !options.robust.gnc) return solve::default_candidates(problem, loss);
+  // False edges tell nothing of a start, so that --gnc's is not chosen by chi-square.
+  const std::string start = !options.start.empty()      ? options.start
+                            : problem.graph->edges_only ? "odometry"
+                                                        : "file";
+  std::vector<solve::Candidate> one;
+  one.push_back(solve::make_candidate(problem, start, loss));
+  return one;
+}
+
+// On -v: all starts there are.
+void tell_starts(const std::vector<solve::Candidate>& starts) {
+  std::string line = "starts by chi-square:";
+  for (const solve::Candidate& start : starts)
+    line +=
+        (&start == &starts[0] ? " " : ", ") + std::string(start.name) + ' ' + rounded(start.chi2);
+  cmd::say(line);
+}
+
+void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem) {
   const auto begin = std::chrono::steady_clock::now();
+  cmd::stage("start");
+  std::vector<solve::Candidate> starts = candidates(options, problem);
+  if (command.verbose) tell_starts(starts);
   const Graph& graph = *problem.graph;
   const auto plan = [&](const factor::Problem& part, const factor::LinearSystem& system) {
     return planned(options, part, system);
@@ -302,19 +330,29 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   batch.stop = cmd::interrupted;
   cmd::finish_first();
   cmd::stage("solve", batch.iterations);
-  if (command.verbose) {
+  const auto tell_start = [&](const solve::Candidate& start) {
+    if (!command.verbose) return;
+    cmd::say("from " + std::string(start.name) + ":");
     cmd::print_error("iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n");
-    print_iteration({0, factor::chi2(problem, values, batch.loss), 0, 0, true, 0, 0});
-  }
+    print_iteration({0, start.chi2, 0, 0, true, 0, 0});
+  };
   const auto report = [&](const solve::Iteration& iteration) {
     cmd::progress(iteration.number);
     if (command.verbose) print_iteration(iteration);
   };
-  const auto [result, weight] =
-      options.robust.gnc
-          ? solve::graduate(problem, plan, cmd::gnc_options(options.robust, problem, batch), values,
-                            report)
-          : solve::GncResult{solve::optimize(problem, system, solver, batch, values, report), {}};
+  factor::Values values;
+  solve::GncResult found;
+  if (options.robust.gnc) {
+    tell_start(starts.front());
+    values = std::move(starts.front().values);
+    found = solve::graduate(problem, plan, cmd::gnc_options(options.robust, problem, batch), values,
+                            report);
+  } else {
+    const bool others = options.start.empty() && !options.iterations;
+    found.batch = solve::optimize_from_best(problem, system, solver, batch, std::move(starts),
+                                             others, values, tell_start, report);
+  }
+  const auto& [result, weight] = found;
   check_converged(command, options, result);
   if (result.scale_free) warn_of_scale(command);
   if (!options.weights.empty()) {
@@ -332,6 +370,12 @@ void check_files(const Options& options) {
     throw text::usage_error("--weights and -o are one file, '" + options.weights +
                             "': the table and the graph need each its own");
   cmd::check_output(options.weights);
+}
+
+// Of what is not optimized.
+factor::Values start_values(const Options& options, const factor::Problem& problem) {
+  return options.start.empty() ? factor::start_values(problem)
+                               : solve::find_start(options.start).make(problem);
 }
 
 void check_call(const cmd::Command& command, const Options& options) {
@@ -392,8 +436,12 @@ void run(const cmd::Command& command, const Options& options) {
     fix(graph, options.fixed);
     cmd::stage("start");
     const factor::Problem problem = factor::make_problem(graph);
-    factor::Values values =
-        options.from_edges ? factor::initial_values(problem) : factor::start_values(problem);
+    const bool looks = options.chi2 || options.residuals || options.certify || times;
+    if (!looks) {
+      solve(command, options, problem);
+      continue;
+    }
+    const factor::Values values = start_values(options, problem);
     if (options.chi2) {
       print_chi2(options, problem, values, *output);
     } else if (options.residuals) {
@@ -401,10 +449,8 @@ void run(const cmd::Command& command, const Options& options) {
                       cmd::loss(options.robust, graph));
     } else if (options.certify) {
       print_certificate(command, options, problem, values);
-    } else if (times) {
-      print_times(options, problem, values, *times);
     } else {
-      solve(command, options, problem, std::move(values));
+      print_times(options, problem, values, *times);
     }
   }
   if (output) output->commit();

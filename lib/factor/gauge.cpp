@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "lib/geometry/numbers.h"
+#include "lib/graph/components.h"
 
 namespace sg::factor {
 namespace {
@@ -195,6 +196,26 @@ void hold_first_pose(Problem& problem) {
   const bool none = pose == problem.variables.variable_vertex.end();
   problem.held = none ? 0 : static_cast<Index>(pose - problem.variables.variable_vertex.begin());
   problem.variables.pattern.rows.add(std::array{problem.held});
+}
+
+std::vector<bool> anchors(const Problem& problem, const std::vector<bool>& edge_left_out) {
+  const Graph& graph = *problem.graph;
+  const graph::Components parts = graph::components(graph, edge_left_out);
+  std::vector<bool> stays = graph.fixed, anchored(parts.count, false);
+  if (problem.held >= 0) stays[problem.variables.variable_vertex[problem.held]] = true;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (stays[v]) anchored[parts.of[v]] = true;
+  }
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (!edge_left_out[e] && graph.edge(e).size() == 1) anchored[parts.of[graph.edge(e)[0]]] = true;
+  }
+  for (const bool any : {false, true}) {  // of a part's vertices a pose, if there is one
+    for (Index v = 0; v < graph.vertices(); ++v) {
+      if (!anchored[parts.of[v]] && (any || graph.role(v) == graph::Role::pose))
+        stays[v] = anchored[parts.of[v]] = true;
+    }
+  }
+  return stays;
 }
 
 std::vector<double> free_scaling(const Problem& problem, const Values& values,

@@ -31,6 +31,10 @@ bool holds_first_pose(const Problem& problem, const Values& values);
 // for them. A camera's focal length is not held with it.
 void hold_first_pose(Problem& problem);
 
+// Vertices that stay while others are placed by some of the edges: constants, what the gauge holds, and the first pose
+// (else vertex) of every part that these edges join to none of them and that no unary one of them holds.
+std::vector<bool> anchors(const Problem& problem, const std::vector<bool>& edge_left_out);
+
 // A step, by scalar, that changes the scale of the whole without any measurement's noticing; empty if there is none.
 std::vector<double> free_scaling(const Problem& problem, const Values& values,
                                  const LinearSystem& system);

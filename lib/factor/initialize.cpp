@@ -183,12 +183,18 @@ Composed compose(const Problem& problem) {
     placed = graph.fixed;
     if (problem.held >= 0) placed[problem.variables.variable_vertex[problem.held]] = true;
   }
-  const graph::Lists<> at = incidence(graph);
+  result.adrift = place_rest(problem, placed, values);
+  return result;
+}
+
+std::vector<Index> place_rest(const Problem& problem, std::vector<bool>& placed, Values& values) {
+  std::vector<Index> adrift;
+  const graph::Lists<> at = incidence(*problem.graph);
   for (graph::Role role : {graph::Role::pose, graph::Role::landmark, graph::Role::other}) {
     Spread spread{problem, at, role, placed, values};
-    place_all(spread, result.adrift);
+    place_all(spread, adrift);
   }
-  return result;
+  return adrift;
 }
 
 Values initial_values(const Problem& problem) {

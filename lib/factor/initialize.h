@@ -26,6 +26,8 @@ struct Composed {
                               // start says nothing
 };
 Composed compose(const Problem& problem);
+// Goes on from the vertices that are marked: places all others, marks them, and returns those adrift.
+std::vector<Index> place_rest(const Problem& problem, std::vector<bool>& placed, Values& values);
 Values initial_values(const Problem& problem);  // without telling
 
 // The file's estimates where it has VERTEX lines, initial_values otherwise: where every solver

@@ -60,7 +60,7 @@ std::vector<Id> variable_ids(const factor::Problem& problem) {
 text::Error diverged(const Run& run) {
   std::string cause = "the iterations diverge: chi-square " + text::format_number(run.result.chi2) +
                       " after " + std::to_string(run.result.iterations) + ", from " +
-                      text::format_number(run.result.initial_chi2) + "; start elsewhere (--init)";
+                      text::format_number(run.result.initial_chi2) + "; start elsewhere (--start)";
   if (run.options.method == BatchMethod::gauss_newton) cause += ", or leave out --gn";
   return text::computation_error(cause);
 }

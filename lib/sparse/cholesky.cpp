@@ -99,8 +99,9 @@ bool factorize(cholmod_sparse& matrix, cholmod_factor& factor, Cholmod& session)
 
 CholmodDense solve(cholmod_factor& factor, std::vector<double>& b, Cholmod& session) {
   cholmod_dense right{};
-  right.nrow = right.nzmax = right.d = b.size();
-  right.ncol = 1;
+  right.nrow = right.d = factor.n;
+  right.nzmax = b.size();
+  right.ncol = b.size() / factor.n;
   right.x = b.data();
   right.xtype = CHOLMOD_REAL;
   right.dtype = CHOLMOD_DOUBLE;

@@ -48,7 +48,7 @@ CholmodFactor analyze(cholmod_sparse& matrix, int ordering, Cholmod& session);
 // The numbers. False for a matrix that is not positive definite.
 bool factorize(cholmod_sparse& matrix, cholmod_factor& factor, Cholmod& session);
 
-// x with A x = b.
+// x with A x = b, of one column or several, one behind the other.
 CholmodDense solve(cholmod_factor& factor, std::vector<double>& b, Cholmod& session);
 
 }  // namespace sg::sparse

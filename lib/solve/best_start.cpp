@@ -1,0 +1,147 @@
+#include "lib/solve/best_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lib/factor/motion.h"
+#include "lib/solve/start.h"
+
+namespace sg::solve {
+namespace {
+
+constexpr int long_run = 100;  // iterations after which the others are asked
+constexpr int trial_run = 20;  // that each of them has to get below the best
+
+constexpr double deviations = 4;
+constexpr double gain = 1e-6;  // less is the same valley
+
+// What chi-square is on average if all errors are noise as their information says.
+double degrees_of_freedom(const factor::Problem& problem) {
+  double sum = 0;
+  for (Index e = 0; e < problem.graph->edges(); ++e) {
+    if (!problem.variables.pattern.rows[e].empty()) sum += problem.model[e]->dim;
+  }
+  if (problem.held >= 0) sum += factor::held_dim(problem);
+  return sum - problem.step_at.back();
+}
+
+bool measures_motions(const factor::Problem& problem) {
+  for (Index e = 0; e < problem.graph->edges(); ++e) {
+    if (problem.graph->edge(e).size() > 1 && factor::measured_motion(problem, e)) return true;
+  }
+  return false;
+}
+
+// A way to an end: how far it is.
+struct Run {
+  factor::Values values;
+  BatchResult result;
+};
+
+struct Search {
+  const factor::Problem& problem;
+  factor::LinearSystem& system;
+  const LinearSolver& solver;
+  const BatchOptions& options;
+  const TellStart& tell_start;
+  const std::function<void(const Iteration&)>& report;
+  std::optional<Run> best{};
+  std::optional<text::Error> error{};  // of the first start
+};
+
+// At most so many iterations more.
+void go_on(Search& search, Run& run, int iterations) {
+  BatchOptions options = search.options;
+  options.iterations = iterations;
+  const int before = run.result.iterations;
+  const auto report = [&](Iteration iteration) {
+    iteration.number += before;
+    if (search.report) search.report(iteration);
+  };
+  const double initial = run.result.initial_chi2;
+  run.result = optimize(search.problem, search.system, search.solver, options, run.values, report);
+  run.result.iterations += before;
+  run.result.initial_chi2 = initial;
+}
+
+bool is_left(const Search& search, const Run& run) {
+  return !run.result.converged && !run.result.stopped &&
+         run.result.iterations < search.options.iterations;
+}
+
+void go_to_the_end(Search& search, Run& run) {
+  if (is_left(search, run)) go_on(search, run, search.options.iterations - run.result.iterations);
+}
+
+// Nothing where it diverges.
+std::optional<Run> set_out(Search& search, Candidate& start, int iterations) {
+  if (search.tell_start) search.tell_start(start);
+  Run run{std::move(start.values), {start.chi2, start.chi2, 0, false}};
+  try {
+    go_on(search, run, std::min(iterations, search.options.iterations));
+    return run;
+  } catch (const text::Error& error) {
+    if (!search.error) search.error = error;
+    return {};
+  }
+}
+
+bool explains(const factor::Problem& problem, const std::optional<Run>& run) {
+  const double mean = degrees_of_freedom(problem);
+  return run && run->result.converged &&
+         run->result.chi2 <= mean + deviations * std::sqrt(2 * std::max(mean, 0.0));
+}
+
+void try_other(Search& search, Candidate& start) {
+  std::optional<Run> run = set_out(search, start, trial_run);
+  if (!run || (search.best && !(run->result.chi2 < (1 - gain) * search.best->result.chi2))) return;
+  go_to_the_end(search, *run);
+  search.best = std::move(run);
+}
+
+}  // namespace
+
+Candidate make_candidate(const factor::Problem& problem, std::string_view start,
+                         const factor::Loss& loss) {
+  Candidate result{start, find_start(start).make(problem), 0};
+  result.chi2 = factor::chi2(problem, result.values, loss);
+  return result;
+}
+
+std::vector<Candidate> default_candidates(const factor::Problem& problem,
+                                          const factor::Loss& loss) {
+  std::vector<Candidate> result;
+  const auto add = [&](std::string_view start) {
+    result.push_back(make_candidate(problem, start, loss));
+  };
+  add(problem.graph->edges_only ? "odometry" : "file");
+  if (measures_motions(problem)) add("chordal");
+  std::ranges::stable_sort(result, [](const Candidate& a, const Candidate& b) {
+    return a.chi2 < b.chi2 || (std::isfinite(a.chi2) && !std::isfinite(b.chi2));
+  });
+  return result;
+}
+
+BatchResult optimize_from_best(const factor::Problem& problem, factor::LinearSystem& system,
+                               const LinearSolver& solver, const BatchOptions& options,
+                               std::vector<Candidate> candidates, bool others,
+                               factor::Values& values, const TellStart& tell_start,
+                               const std::function<void(const Iteration&)>& report) {
+  Search search{problem, system, solver, options, tell_start, report};
+  search.best = set_out(search, candidates[0], others ? long_run : options.iterations);
+  if (others && !explains(problem, search.best)) {
+    if (measures_motions(problem))
+      candidates.push_back(make_candidate(problem, "tree", options.loss));
+    for (std::size_t k = 1; k < candidates.size() && !(search.best && search.best->result.stopped);
+         ++k)
+      try_other(search, candidates[k]);
+  }
+  if (!search.best) throw text::Error(*search.error);
+  go_to_the_end(search, *search.best);
+  values = std::move(search.best->values);
+  return search.best->result;
+}
+
+}  // namespace sg::solve
