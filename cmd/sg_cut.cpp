@@ -80,7 +80,7 @@ graph::Part part(const Graph& graph, const Options& options) {
     return graph::without_types(graph, types_of(graph, "--without", options.without));
   if (!options.where.empty())
     return {std::vector<bool>(graph.vertices(), true),
-            cmd::edges_where(graph, cmd::parse_condition(options.where))};
+            cut::edges_where(graph, cut::parse_condition(options.where))};
   return graph::of_ids(graph, cmd::ranges_of_vertices(graph, "--ids", options.ids));
 }
 
@@ -97,7 +97,7 @@ void check_call(const cmd::Command& command, const Options& options) {
                    "which part?");
   if (!options.poses) cmd::refuse(command.app, {"--min-obs"}, "without --poses");
   if (!options.range.empty()) cmd::parse_range("--range", options.range);
-  if (!options.where.empty()) cmd::parse_condition(options.where);
+  if (!options.where.empty()) cut::parse_condition(options.where);
   cmd::parse_ranges("--ids", options.ids);
 }
 
@@ -109,7 +109,7 @@ void check_rest(const Graph& graph, const graph::Part& kept) {
   throw text::input_error(graph.file, 0, "the part holds no vertex and no edge");
 }
 
-void cut(const cmd::Command& command, const Options& options) {
+void cut_out(const cmd::Command& command, const Options& options) {
   check_call(command, options);
   const Graph graph = cmd::read(options.input);
   cmd::stage("cut");
@@ -156,7 +156,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->option_text("TAG,...");
   app.add_option("--where", options.where,
                  "Keep all vertices, and the edges of which CONDITION\nholds: columns " +
-                     cmd::where_columns())
+                     cut::where_columns())
       ->option_text("CONDITION");
   cmd::add_entry(app, options.min_obs, "With --poses: a landmark");
   cmd::add_filter_output(command, options.output);
@@ -165,5 +165,6 @@ void add_options(cmd::Command& command, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return cmd::run(cmd::Command("sg-cut", "Keep a part of a graph."), argc, argv, add_options, cut);
+  return cmd::run(cmd::Command("sg-cut", "Keep a part of a graph."), argc, argv, add_options,
+                  cut_out);
 }

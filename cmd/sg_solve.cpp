@@ -67,7 +67,7 @@ struct Options {
   bool gauss_newton = false;
   std::optional<int> iterations;  // as many, whether that is enough or not
   double tolerance = 1e-9;
-  cmd::RobustOptions robust;
+  solve::RobustOptions robust;
   cmd::MethodOptions method;
   std::string backend{solve::backends().front().name};
   int threads = tbb::info::default_concurrency();
@@ -97,7 +97,7 @@ void add_options(cmd::Command& command, Options& options) {
                  "Least relative change of chi-square (default: 1e-9)")
       ->option_text("X")
       ->check(cmd::number(0));
-  cmd::add_robust(app, options.robust);
+  solve::add_robust(app, options.robust);
   app.add_option("--weights", options.weights, "Write a table, too: what every edge counted")
       ->option_text("FILE");
   app.add_option("--fix", options.fixed, "Take these vertices for constants")
@@ -128,8 +128,8 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_filter_output(command, options.output);
   cmd::add_table(command, options.table,
                  {{"", cmd::headings(time_columns)},
-                  {"With --residuals and --weights:", cmd::headings(cmd::residual_columns)},
-                  {"With --certify:", cmd::headings(cmd::certificate_columns)}});
+                  {"With --residuals and --weights:", cmd::headings(solve::residual_columns)},
+                  {"With --certify:", cmd::headings(solve::certificate_columns)}});
 }
 
 solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
@@ -138,7 +138,7 @@ solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
                                       : solve::BatchMethod::levenberg_marquardt;
   batch.iterations = options.iterations.value_or(most_iterations);
   batch.tolerance = options.tolerance;
-  batch.loss = cmd::loss(options.robust, graph);
+  batch.loss = solve::loss(options.robust, graph);
   return batch;
 }
 
@@ -180,7 +180,7 @@ Timing timed(const Options& options, const factor::Problem& problem, const facto
 void print_times(const Options& options, const factor::Problem& problem,
                  const factor::Values& values, cmd::Table<Timing>& table) {
   factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, cmd::loss(options.robust, *problem.graph), system);
+  factor::linearize(problem, values, solve::loss(options.robust, *problem.graph), system);
   const graph::GraphPattern variables =
       graph::graph_pattern(*problem.graph);  // without the gauge's row
   cmd::finish_first();
@@ -196,7 +196,7 @@ void print_times(const Options& options, const factor::Problem& problem,
 void print_chi2(const Options& options, const factor::Problem& problem,
                 const factor::Values& values, cmd::Output& output) {
   const double chi2 =
-      factor::finite_chi2(problem, values, cmd::loss(options.robust, *problem.graph));
+      factor::finite_chi2(problem, values, solve::loss(options.robust, *problem.graph));
   if (options.inputs.paths.size() > 1) output.write(problem.graph->file + "\t");
   output.write(text::format_number(chi2) + "\n");
 }
@@ -256,19 +256,19 @@ void print_residuals(const Options& options, const std::string& path,
                      const factor::Problem& problem, const factor::Values& values,
                      const factor::Loss& loss) {
   cmd::Output output(path);
-  cmd::Table table(options.table, cmd::residual_columns, {}, output);
-  cmd::print_residuals(problem, values, loss, table);
+  cmd::Table table(options.table, solve::residual_columns, {}, output);
+  solve::print_residuals(problem, values, loss, table);
   output.commit();
 }
 
 void print_certificate(const cmd::Command& command, const Options& options,
                        const factor::Problem& problem, const factor::Values& values) {
   cmd::Output output(options.output.path);
-  cmd::Table table(options.table, cmd::certificate_columns, {}, output);
+  cmd::Table table(options.table, solve::certificate_columns, {}, output);
   cmd::stage("certify");
   const solve::Certificate certificate = solve::certify(problem, values);
   table.row(certificate);
-  cmd::warn_of_model(command, certificate);
+  solve::warn_of_model(command, certificate);
   output.commit();
 }
 
@@ -290,7 +290,7 @@ void warn_of_scale(const cmd::Command& command) {
 
 // Where the user says, or the best of several.
 std::vector<solve::Candidate> candidates(const Options& options, const factor::Problem& problem) {
-  const factor::Loss loss = cmd::loss(options.robust, *problem.graph);
+  const factor::Loss loss = solve::loss(options.robust, *problem.graph);
   if (options.start.empty() && !options.robust.gnc) return solve::default_candidates(problem, loss);
   // False edges tell nothing of a start, so that --gnc's is not chosen by chi-square.
   const std::string start = !options.start.empty()      ? options.start
@@ -345,12 +345,12 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   if (options.robust.gnc) {
     tell_start(starts.front());
     values = std::move(starts.front().values);
-    found = solve::graduate(problem, plan, cmd::gnc_options(options.robust, problem, batch), values,
-                            report);
+    found = solve::graduate(problem, plan, solve::gnc_options(options.robust, problem, batch),
+                            values, report);
   } else {
     const bool others = options.start.empty() && !options.iterations;
     found.batch = solve::optimize_from_best(problem, system, solver, batch, std::move(starts),
-                                             others, values, tell_start, report);
+                                            others, values, tell_start, report);
   }
   const auto& [result, weight] = found;
   check_converged(command, options, result);
@@ -381,7 +381,7 @@ factor::Values start_values(const Options& options, const factor::Problem& probl
 void check_call(const cmd::Command& command, const Options& options) {
   const CLI::App& app = command.app;
   cmd::check_form(app);
-  cmd::check_robust(app, options.robust);
+  solve::check_robust(app, options.robust);
   cmd::at_most_one(app, {{"--chi2", "prints the chi-square"},
                          {"--residuals", "prints that of every edge"},
                          {"--certify", "tells whether it is the least"},
@@ -446,7 +446,7 @@ void run(const cmd::Command& command, const Options& options) {
       print_chi2(options, problem, values, *output);
     } else if (options.residuals) {
       print_residuals(options, options.output.path, problem, values,
-                      cmd::loss(options.robust, graph));
+                      solve::loss(options.robust, graph));
     } else if (options.certify) {
       print_certificate(command, options, problem, values);
     } else {

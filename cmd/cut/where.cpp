@@ -12,7 +12,7 @@
 #include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
-namespace sg::cmd {
+namespace sg::cut {
 namespace {
 
 // What columns are asked about, each made when one first wants it.
@@ -143,4 +143,4 @@ std::string where_columns() {
   return text::listed(text::names_of(columns));
 }
 
-}  // namespace sg::cmd
+}  // namespace sg::cut

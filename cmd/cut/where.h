@@ -7,7 +7,7 @@
 
 #include "lib/graph/graph.h"
 
-namespace sg::cmd {
+namespace sg::cut {
 
 struct Comparison {
   std::size_t column;
@@ -25,4 +25,4 @@ std::vector<bool> edges_where(const Graph& graph, const Condition& condition);
 // "chi2, dof, ...", for the help.
 std::string where_columns();
 
-}  // namespace sg::cmd
+}  // namespace sg::cut

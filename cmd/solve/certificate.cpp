@@ -1,10 +1,10 @@
 #include "cmd/solve/certificate.h"
 
-namespace sg::cmd {
+namespace sg::solve {
 
 using solve::Certificate;
 
-const std::vector<Column<Certificate>> certificate_columns{
+const std::vector<cmd::Column<Certificate>> certificate_columns{
     {"certified", "Whether no estimate is better by a thousandth", &solve::is_certified},
     {"chi2", "Chi-square of the graph as it is", &Certificate::chi2},
     {"bound", "No estimate has less", &Certificate::bound},
@@ -14,13 +14,14 @@ const std::vector<Column<Certificate>> certificate_columns{
     {"left_out", "Edges of other types", &Certificate::left_out},
 };
 
-void warn_of_model(const Command& command, const Certificate& certificate) {
+void warn_of_model(const cmd::Command& command, const Certificate& certificate) {
   if (solve::is_certified(certificate)) return;
   if (certificate.in_part + certificate.left_out == 0) return;
-  warn(command, "the certificate's model is isotropic noise of relative poses: " +
-                    std::to_string(certificate.in_part) + " edges count in part, " +
-                    std::to_string(certificate.left_out) +
-                    " not at all; what is not certified may be the global optimum all the same");
+  cmd::warn(command,
+            "the certificate's model is isotropic noise of relative poses: " +
+                std::to_string(certificate.in_part) + " edges count in part, " +
+                std::to_string(certificate.left_out) +
+                " not at all; what is not certified may be the global optimum all the same");
 }
 
-}  // namespace sg::cmd
+}  // namespace sg::solve

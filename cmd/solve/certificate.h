@@ -4,11 +4,11 @@
 #include "cmd/common/table.h"
 #include "lib/solve/certificate.h"
 
-namespace sg::cmd {
+namespace sg::solve {
 
-extern const std::vector<Column<solve::Certificate>> certificate_columns;
+extern const std::vector<cmd::Column<Certificate>> certificate_columns;
 
 // What the table does not say: which edges keep the bound from being tight.
-void warn_of_model(const Command& command, const solve::Certificate& certificate);
+void warn_of_model(const cmd::Command& command, const Certificate& certificate);
 
-}  // namespace sg::cmd
+}  // namespace sg::solve

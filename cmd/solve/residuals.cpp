@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-namespace sg::cmd {
+namespace sg::solve {
 namespace {
 
-IdList ids(const ResidualRow& row) {
-  IdList result;
+cmd::IdList ids(const ResidualRow& row) {
+  cmd::IdList result;
   for (const Index v : row.graph.edge(row.residual.edge)) result.push_back(row.graph.id[v]);
   return result;
 }
@@ -27,7 +27,7 @@ std::vector<std::size_t> line_numbers(const Graph& graph) {
 
 }  // namespace
 
-const std::vector<Column<ResidualRow>> residual_columns{
+const std::vector<cmd::Column<ResidualRow>> residual_columns{
     {"line", "Of the edge in the file", &ResidualRow::line},
     {"type", "Its tag",
      [](ResidualRow& row) { return row.graph.type_of_edge(row.residual.edge).tag; }},
@@ -40,7 +40,7 @@ const std::vector<Column<ResidualRow>> residual_columns{
 };
 
 void print_residuals(const factor::Problem& problem, const factor::Values& values,
-                     const factor::Loss& loss, Table<ResidualRow>& table) {
+                     const factor::Loss& loss, cmd::Table<ResidualRow>& table) {
   std::vector<factor::Residual> residuals = factor::residuals(problem, values);
   factor::worst_first(residuals);
   const std::vector<std::size_t> line = line_numbers(*problem.graph);
@@ -50,4 +50,4 @@ void print_residuals(const factor::Problem& problem, const factor::Values& value
   }
 }
 
-}  // namespace sg::cmd
+}  // namespace sg::solve

@@ -4,7 +4,7 @@
 #include "cmd/common/table.h"
 #include "lib/factor/residuals.h"
 
-namespace sg::cmd {
+namespace sg::solve {
 
 struct ResidualRow {
   const Graph& graph;
@@ -12,9 +12,9 @@ struct ResidualRow {
   double weight;
   std::size_t line;
 };
-extern const std::vector<Column<ResidualRow>> residual_columns;
+extern const std::vector<cmd::Column<ResidualRow>> residual_columns;
 
 void print_residuals(const factor::Problem& problem, const factor::Values& values,
-                     const factor::Loss& loss, Table<ResidualRow>& table);
+                     const factor::Loss& loss, cmd::Table<ResidualRow>& table);
 
-}  // namespace sg::cmd
+}  // namespace sg::solve

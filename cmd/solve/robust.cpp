@@ -6,7 +6,7 @@
 #include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
-namespace sg::cmd {
+namespace sg::solve {
 namespace {
 
 factor::Kernel parse_kernel(const std::string& text) {
@@ -36,30 +36,30 @@ std::vector<bool> edges_on(const std::string& on, const Graph& graph) {
 }  // namespace
 
 void add_robust(CLI::App& app, RobustOptions& options) {
-  app.add_option(
-         "--kernel", options.kernel,
-         wrapped_list("Robust kernel of width W: ", text::names_of(factor::kernel_shapes()), ", "))
+  app.add_option("--kernel", options.kernel,
+                 cmd::wrapped_list(
+                     "Robust kernel of width W: ", text::names_of(factor::kernel_shapes()), ", "))
       ->option_text("NAME:W");
   app.add_option(
          "--kernel-on", options.on,
          "loops, observations, all: what --kernel or --gnc\nis for (default: all but odometry)")
       ->option_text("WHAT")
-      ->check(one_of({"loops", "observations", "all"}));
+      ->check(cmd::one_of({"loops", "observations", "all"}));
   app.add_flag("--gnc", options.gnc,
                "Find false edges by graduated non-convexity, and\nleave them out");
   app.add_option(
          "--quantile", options.quantile,
          "With --gnc: of chance's chi-squares, beyond which\nan edge is false (default: 0.9999)")
       ->option_text("P")
-      ->check(number(0, 1));
+      ->check(cmd::number(0, 1));
 }
 
 void check_robust(const CLI::App& app, const RobustOptions& options) {
   parse_kernel(options.kernel);
-  at_most_one(app, {{"--kernel", "weighs edges"}, {"--gnc", "keeps or leaves them out"}});
+  cmd::at_most_one(app, {{"--kernel", "weighs edges"}, {"--gnc", "keeps or leaves them out"}});
   if (options.kernel.empty() && !options.gnc)
-    refuse(app, {"--kernel-on"}, "without --kernel or --gnc");
-  if (!options.gnc) refuse(app, {"--quantile"}, "without --gnc");
+    cmd::refuse(app, {"--kernel-on"}, "without --kernel or --gnc");
+  if (!options.gnc) cmd::refuse(app, {"--quantile"}, "without --gnc");
   if (options.quantile <= 0 || options.quantile >= 1)
     throw text::usage_error("--quantile is above 0 and below 1");
 }
@@ -80,4 +80,4 @@ solve::GncOptions gnc_options(const RobustOptions& options, const factor::Proble
   return result;
 }
 
-}  // namespace sg::cmd
+}  // namespace sg::solve

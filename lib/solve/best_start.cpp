@@ -105,7 +105,8 @@ void try_other(Search& search, Candidate& start) {
 
 Candidate make_candidate(const factor::Problem& problem, std::string_view start,
                          const factor::Loss& loss) {
-  Candidate result{start, find_start(start).make(problem), 0};
+  const Start& row = find_start(start);
+  Candidate result{row.name, row.make(problem), 0};
   result.chi2 = factor::chi2(problem, result.values, loss);
   return result;
 }

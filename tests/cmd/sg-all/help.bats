@@ -25,8 +25,8 @@ documented() {
   helps | while read -r command; do
     $command --help >"$BATS_TEST_TMPDIR/help"
     awk -v command="$command" 'length > 80 || /{false}/ {print command ": " $0; bad = 1} END {
-      if (NR > 43) print command ": " NR " lines"
-      exit bad || NR > 43
+      if (NR > 54) print command ": " NR " lines"
+      exit bad || NR > 54
     }' "$BATS_TEST_TMPDIR/help" >&2
   done
 }

@@ -92,10 +92,8 @@ short() {
   local megabytes=$1 code=0 wanted='^$'
   shift
   (ulimit -v $((megabytes * 1024)); exec "$@") >printed 2>said || code=$?
-  # METIS, if it is the one that runs out, has words of its own before it gives up; which limit hits it is chance.
-  sed -i '/^\*\*\*Memory allocation failed\|^ *\(Current\|Maximum\) memory used: /d' said
   if [ $code = 3 ]; then
-    wanted="^$1: out of memory \\([a-z ]+: [0-9]+ MB were in use\\)$"
+    wanted="^$1: out of memory \\(([a-z ]+: )?[0-9]+ MB were in use\\)$"
     echo x >>refused
   elif [ $code = 127 ]; then
     wanted='error while loading shared libraries'

@@ -74,7 +74,8 @@ chain() {
   fails 3 "sg-isam2: zero.g2o:7: EDGE_PROJECT_DISPARITY has no derivative at this estimate" \
     sg-isam2 --init file -o end.g2o zero.g2o
   [ ! -e end.g2o ]
-  fails 3 "sg-solve: zero.g2o:7: EDGE_PROJECT_DISPARITY has no derivative at this estimate" sg-solve -o end.g2o zero.g2o
+  fails 3 "sg-solve: zero.g2o:7: EDGE_PROJECT_DISPARITY has no derivative at this estimate" \
+    sg-solve --start file -o end.g2o zero.g2o
   [ ! -e end.g2o ]
   fails 3 "sg-solve: zero.g2o:7: EDGE_PROJECT_DISPARITY has no derivative at this estimate" sg-solve --time 1 zero.g2o
 }

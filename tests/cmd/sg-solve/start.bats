@@ -36,9 +36,10 @@ optimum() {
     want=$(optimum sg-solve noisy.g2o)
     near "$(optimum sg-solve edges.g2o)" "$want" 1e-6
     near "$(optimum sg-solve --start chordal noisy.g2o)" "$want" 1e-6
-    away=$(optimum sg-solve -q --keep -i 200 --start file noisy.g2o)
-    awk -v away="$away" -v want="$want" 'BEGIN { exit !(away > 1.1 * want) }'
   done
+  sg-gen manhattan -n 500 --noise-rot 0.2 --seed 2 -o noisy.g2o
+  away=$(optimum sg-solve -q --keep -i 200 --start file noisy.g2o)
+  awk -v away="$away" -v want="$(optimum sg-solve noisy.g2o)" 'BEGIN { exit !(away > 1.1 * want) }'
 }
 
 @test "-v tells the starts, the least chi-square first, and each run's" {
@@ -48,7 +49,7 @@ optimum() {
   grep -qx 'sg-solve: from chordal:' <<< "$output"
   run -0 sg-solve -v --start file noisy.g2o -o solved.g2o
   grep -qE '^sg-solve: starts by chi-square: file [0-9.e+]+$' <<< "$output"
-  run grep -c 'from chordal' <<< "$output"
+  run -1 grep -c 'from chordal' <<< "$output"
   [ "$output" = 0 ]
 }
 
