@@ -19,7 +19,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers starts lint format clean
+.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers starts marginalize lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -104,6 +104,10 @@ outliers: build ## which false edges sg-solve --gnc finds, and what they cost, i
 
 starts: build ## every start of sg-solve on every graph, into out/starts (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/starts OUT=$(CURDIR)/out/starts \
+	  GRAPHS="$(abspath $(GRAPHS))"
+
+marginalize: build ## what topologies of marginalized poses cost and lose, into out/marginalize (GRAPHS="..." adds yours)
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/marginalize OUT=$(CURDIR)/out/marginalize \
 	  GRAPHS="$(abspath $(GRAPHS))"
 
 SOURCES = $(shell git ls-files '*.h' '*.cpp')

@@ -98,7 +98,8 @@ TEST_CASE("an edge that is left out leaves no vertex undetermined", "[solve]") {
       "EDGE_SE2 1 3 1 0 0 100 0 0 100 0 100\nEDGE_SE2 1 3 9 0 0 100 0 0 100 0 100\n"
       "EDGE_SE2_XY 0 9 0 5 100 0 100\nEDGE_SE2_XY 1 9 30 5 100 0 100\n");
   const factor::Problem problem = factor::make_problem(graph);
-  solve::GncOptions options{{}, {false, false, true, true, true, true}, {}};
+  solve::GncOptions options;
+  options.doubtful = {false, false, true, true, true, true};
   options.bound.assign(graph.edges(), 20);
   factor::Values values = factor::start_values(problem);
   const solve::GncResult result = solve::graduate(problem, plan, options, values);
