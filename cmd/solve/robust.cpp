@@ -49,7 +49,7 @@ void add_robust(CLI::App& app, RobustOptions& options) {
                "Find false edges by graduated non-convexity, and\nleave them out");
   app.add_option(
          "--quantile", options.quantile,
-         "With --gnc: of chance's chi-squares, beyond which\nan edge is false (default: 0.9999)")
+         "With --gnc: of chance's chi-squares, beyond which\nan edge is false (default: 0.99999)")
       ->option_text("P")
       ->check(cmd::number(0, 1));
 }
