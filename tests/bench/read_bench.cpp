@@ -9,15 +9,16 @@ using namespace sg;
 
 namespace {
 
-void read(benchmark::State& state, const Text& text) {
-  for (auto _ : state) benchmark::DoNotOptimize(read_graph_text(text, "graph"));
+void read(benchmark::State& state, const text::Text& text) {
+  for (auto _ : state) benchmark::DoNotOptimize(formats::read_graph_text(text, "graph"));
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.view.size()));
 }
 
 const bool registered = [] {
   for (const auto& path : bench::public_graphs({"sphere2500.g2o", "city10000.g2o"})) {
-    benchmark::RegisterBenchmark(("read/" + std::filesystem::path(path).stem().string()).c_str(),
-                                 [path](benchmark::State& state) { read(state, read_text(path)); })
+    benchmark::RegisterBenchmark(
+        ("read/" + std::filesystem::path(path).stem().string()).c_str(),
+        [path](benchmark::State& state) { read(state, text::read_text(path)); })
         ->Unit(benchmark::kMillisecond);
   }
   benchmark::RegisterBenchmark("read/manhattan",

@@ -19,18 +19,18 @@ using namespace sg;
 namespace {
 
 struct Case {
-  Pattern pattern;
-  Order order;
+  graph::Pattern pattern;
+  graph::Order order;
 };
 
 Case make_case(const Graph& graph) {
-  Case made{graph_pattern(graph).pattern, {}};
-  made.order = elimination_order("colamd", made.pattern);
+  Case made{graph::graph_pattern(graph).pattern, {}};
+  made.order = order::elimination_order("colamd", made.pattern);
   return made;
 }
 
 void ours(benchmark::State& state, const Case& made) {
-  for (auto _ : state) benchmark::DoNotOptimize(symbolic(made.pattern, made.order));
+  for (auto _ : state) benchmark::DoNotOptimize(elim::symbolic(made.pattern, made.order));
   state.counters["variables"] = made.pattern.variables();
 }
 
@@ -42,10 +42,10 @@ struct Scalar {
 };
 
 Scalar expand(const Case& made) {
-  const Pattern& pattern = made.pattern;
+  const graph::Pattern& pattern = made.pattern;
   std::vector<int> first(pattern.variables() + 1, 0);
   std::partial_sum(pattern.dim.begin(), pattern.dim.end(), first.begin() + 1);
-  const Adjacency graph = adjacency(pattern);
+  const graph::Adjacency graph = graph::adjacency(pattern);
   Scalar scalar;
   for (Index j = 0; j < pattern.variables(); ++j) {
     for (int column = first[j]; column < first[j + 1]; ++column) {
@@ -100,10 +100,12 @@ void compare(const std::string& name, const std::function<Case()>& make) {
 
 const bool registered = [] {
   for (const auto& path : bench::public_graphs({"sphere2500.g2o", "city10000.g2o"})) {
-    compare(std::filesystem::path(path).stem(), [path] { return make_case(read_graph(path)); });
+    compare(std::filesystem::path(path).stem(),
+            [path] { return make_case(formats::read_graph(path)); });
   }
   compare("manhattan/1000000", [] {
-    static const Case made = make_case(read_graph_text(bench::manhattan_text(1'000'000), "graph"));
+    static const Case made =
+        make_case(formats::read_graph_text(bench::manhattan_text(1'000'000), "graph"));
     return made;
   });
   return true;

@@ -26,10 +26,10 @@ double seconds_since(Clock::time_point start) {
 
 Graph sine_graph() {
   std::string bytes;
-  Out out{[&](std::string_view piece) { bytes += piece; }};
-  write_graph(sine(Sine{}), Copy::noisy, out);
-  flush(out);
-  return read_graph_text(text_of(std::move(bytes)), "sine");
+  world::Out out{[&](std::string_view piece) { bytes += piece; }};
+  world::write_graph(world::sine(world::Sine{}), world::Copy::noisy, out);
+  world::flush(out);
+  return formats::read_graph_text(text::text_of(std::move(bytes)), "sine");
 }
 
 struct Choice {
@@ -39,30 +39,32 @@ struct Choice {
 };
 
 Choice choice(Graph graph, std::size_t one_in) {
-  auto candidates = candidate_edges(graph, pose_index(graph), natural_candidates(graph));
+  auto candidates =
+      prune::candidate_edges(graph, graph::pose_index(graph), prune::natural_candidates(graph));
   const std::size_t count = candidates.size() / one_in;
   return {std::move(graph), std::move(candidates), count};
 }
 
-std::vector<Edge> links_of(const Graph& graph) {
-  const Nodes nodes = tree_nodes(graph);
-  std::vector<Edge> links;
+std::vector<trees::Edge> links_of(const Graph& graph) {
+  const trees::Nodes nodes = trees::tree_nodes(graph);
+  std::vector<trees::Edge> links;
   for (Index e = 0; e < graph.edges(); ++e)
     links.push_back({nodes.node[graph.edge(e)[0]], nodes.node[graph.edge(e)[1]]});
   return links;
 }
 
 // Seconds of one round after `accepted` choices: a solve for every candidate that is left.
-double naive_round(const Choice& choice, std::span<const Accepted> accepted) {
-  const std::vector<Edge> links = links_of(choice.graph);
+double naive_round(const Choice& choice, std::span<const prune::Accepted> accepted) {
+  const std::vector<trees::Edge> links = links_of(choice.graph);
   std::vector<double> weight(links.size(), 1);
   for (Index e : choice.candidates) weight[e] = 0;
-  for (const Accepted& step : accepted) weight[step.edge] = 1;
-  SpanningTrees trees = spanning_trees(tree_nodes(choice.graph).count, links, weight);
+  for (const prune::Accepted& step : accepted) weight[step.edge] = 1;
+  trees::SpanningTrees spanning =
+      trees::spanning_trees(trees::tree_nodes(choice.graph).count, links, weight);
   const auto start = Clock::now();
   double best = 0;
   for (Index e : choice.candidates) {
-    if (weight[e] == 0) best = std::max(best, gain(trees, links[e], 1));
+    if (weight[e] == 0) best = std::max(best, trees::gain(spanning, links[e], 1));
   }
   benchmark::DoNotOptimize(best);
   return seconds_since(start);
@@ -71,11 +73,11 @@ double naive_round(const Choice& choice, std::span<const Accepted> accepted) {
 constexpr int sampled_rounds = 5;
 
 void tgreedy_run(benchmark::State& state, const Choice& choice) {
-  std::vector<Accepted> accepted;
+  std::vector<prune::Accepted> accepted;
   double lazy = 0;
   for (auto _ : state) {
     const auto start = Clock::now();
-    accepted = tgreedy(choice.graph, choice.candidates, choice.count, Weights::unit);
+    accepted = prune::tgreedy(choice.graph, choice.candidates, choice.count, trees::Weights::unit);
     lazy += seconds_since(start) / static_cast<double>(state.max_iterations);
   }
   double round = 0;  // mean over rounds at the middle of equal parts of the run
@@ -96,7 +98,7 @@ void add(const std::string& name, const std::function<Choice()>& make) {
 
 const bool registered = [] {
   for (const auto& path : bench::public_graphs({"city10000.g2o"}))
-    add("city10000_half", [path] { return choice(read_graph(path), 2); });
+    add("city10000_half", [path] { return choice(formats::read_graph(path), 2); });
   add("sine_quarter", [] { return choice(sine_graph(), 4); });
   return true;
 }();

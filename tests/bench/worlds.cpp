@@ -17,16 +17,16 @@ std::vector<std::string> public_graphs(const std::vector<std::string>& names) {
   return paths;
 }
 
-const Text& manhattan_text(Index poses) {
+const text::Text& manhattan_text(Index poses) {
   static Index kept = 0;
-  static Text text;
+  static text::Text text;
   if (kept != poses) {
     text = {};
     std::string bytes;
-    Out out{[&](std::string_view piece) { bytes += piece; }};
-    write_graph(manhattan({.poses = poses}), Copy::noisy, out);
-    flush(out);
-    text = text_of(std::move(bytes));
+    world::Out out{[&](std::string_view piece) { bytes += piece; }};
+    world::write_graph(world::manhattan({.poses = poses}), world::Copy::noisy, out);
+    world::flush(out);
+    text = text::text_of(std::move(bytes));
     kept = poses;
   }
   return text;

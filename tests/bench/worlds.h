@@ -12,6 +12,6 @@ namespace sg::bench {
 std::vector<std::string> public_graphs(const std::vector<std::string>& names);
 
 // The text that `sg-gen manhattan -n POSES` writes. The last one asked for is kept.
-const Text& manhattan_text(Index poses);
+const text::Text& manhattan_text(Index poses);
 
 }  // namespace sg::bench
