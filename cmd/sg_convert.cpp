@@ -5,6 +5,7 @@
 #include "cmd/common/command.h"
 #include "cmd/common/complete.h"
 #include "cmd/common/options.h"
+#include "cmd/common/ranges.h"
 #include "cmd/convert/hessian.h"
 #include "formats/applied.h"
 #include "formats/convert.h"
@@ -77,10 +78,9 @@ formats::Changes with_fixed(const Graph& graph, const std::vector<Id>& ids) {
   formats::Changes changes = formats::unchanged(graph);
   std::vector<bool> fixed = graph.fixed;
   for (const Id id : ids) {
-    const auto v = graph::find_vertex(graph, id);
-    if (!v) throw text::usage_error("--fix: the graph has no vertex " + std::to_string(id));
-    if (!fixed[*v]) changes.append += std::string(graph::fix_tag) + " " + std::to_string(id) + "\n";
-    fixed[*v] = true;
+    const Index v = cmd::vertex_of(graph, "--fix", id);
+    if (!fixed[v]) changes.append += std::string(graph::fix_tag) + " " + std::to_string(id) + "\n";
+    fixed[v] = true;
   }
   return changes;
 }

@@ -37,9 +37,7 @@ graph::Part range_of_poses(const Graph& graph, const std::string& text) {
 }
 
 graph::Part component_of(const Graph& graph, Id id) {
-  const auto v = graph::find_vertex(graph, id);
-  if (!v) throw text::usage_error("--component: the graph has no vertex " + std::to_string(id));
-  return graph::component_of(graph, *v);
+  return graph::component_of(graph, cmd::vertex_of(graph, "--component", id));
 }
 
 // The types that these tags mean.

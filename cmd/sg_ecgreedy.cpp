@@ -10,7 +10,7 @@
 #include "cmd/common/table.h"
 #include "lib/factor/initialize.h"
 #include "lib/prune/ecgreedy.h"
-#include "lib/solve/batch.h"
+#include "lib/score/covariance.h"
 
 using namespace sg;
 
@@ -180,9 +180,7 @@ std::vector<prune::Move> moves_of(const Options& options, Subject& subject,
   set_budget(options, subject, greedy);
   std::vector<prune::Move> moves = prune::ecgreedy(subject.choice, subject.evidence, greedy);
   if (!moves.empty()) return moves;
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, {}, system);
-  throw solve::singular_error(problem, values, system);
+  throw score::singular_error(problem, values);
 }
 
 void print_trace(const Options& options, const Graph& graph, std::span<const prune::Move> moves) {

@@ -220,16 +220,15 @@ score::Odometry read_odometry(const std::string& path, formats::ReadOptions opti
 
 // Columns of a reference are asked for in vain without one, and options without their columns.
 void check_columns(const CLI::App& app, const Options& options) {
+  const auto asks = [&](std::string_view name) {
+    return std::ranges::count(options.table.columns, name) > 0;
+  };
   for (const auto& column : columns) {
-    const auto& asked = options.table.columns;
-    const bool wanted = std::find(asked.begin(), asked.end(), column.name) != asked.end();
-    if (wanted && column.needs == "--reference" && options.reference.empty())
+    if (asks(column.name) && column.needs == "--reference" && options.reference.empty())
       throw text::usage_error("column '" + column.name + "' wants a --reference");
   }
   const auto shows = [&](std::initializer_list<std::string_view> names) {
-    return options.table.columns.empty() || std::ranges::any_of(names, [&](std::string_view name) {
-             return std::ranges::count(options.table.columns, name) > 0;
-           });
+    return options.table.columns.empty() || std::ranges::any_of(names, asks);
   };
   if (!shows({"log_trees", "lambda2"}))
     cmd::refuse(app, {"--weights"}, "without a column log_trees or lambda2");

@@ -3,7 +3,6 @@
 #include <oneapi/tbb/info.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -13,12 +12,13 @@
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
+#include "cmd/common/ranges.h"
 #include "cmd/common/same_file.h"
 #include "cmd/common/table.h"
 #include "cmd/solve/certificate.h"
 #include "cmd/solve/residuals.h"
 #include "cmd/solve/robust.h"
-#include "lib/elim/score.h"
+#include "cmd/solve/timing.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/batch.h"
 #include "lib/solve/best_start.h"
@@ -30,35 +30,6 @@
 using namespace sg;
 
 namespace {
-
-// How long elimination takes, as --time measures it.
-struct Timing {
-  std::string file;
-  std::string order;
-  std::string backend;
-  int threads;
-  Index variables;
-  Index factors;
-  elim::Wide ec;
-  int runs;
-  double plan_s;
-  double median_s;
-};
-
-const std::vector<cmd::Column<Timing>> time_columns{
-    {"file", "The file", &Timing::file, "several files"},
-    {"order", "The ordering", &Timing::order},
-    {"backend", "What eliminates", &Timing::backend},
-    {"threads", "How many it may use", &Timing::threads},
-    {"variables", "How many are eliminated", &Timing::variables},
-    {"factors", "Edges of the graph", &Timing::factors},
-    {"ec", "Elimination complexity", &Timing::ec},
-    {"runs", "Eliminations that were timed", &Timing::runs},
-    {"plan_s", "Seconds once spent on the structure", &Timing::plan_s},
-    {"median_s", "Median of the elimination times, in seconds", &Timing::median_s},
-    {"s_per_ec", "The same for a unit of elimination complexity",
-     [](Timing& timing) { return timing.median_s / elim::to_double(timing.ec); }},
-};
 
 struct Options {
   cmd::Inputs inputs;
@@ -127,7 +98,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->transform(cmd::whole(1));
   cmd::add_filter_output(command, options.output);
   cmd::add_table(command, options.table,
-                 {{"", cmd::headings(time_columns)},
+                 {{"", cmd::headings(solve::time_columns)},
                   {"With --residuals and --weights:", cmd::headings(solve::residual_columns)},
                   {"With --certify:", cmd::headings(solve::certificate_columns)}});
 }
@@ -142,61 +113,10 @@ solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
   return batch;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> times) {
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
-}
-
-Timing timed(const Options& options, const factor::Problem& problem, const factor::Values& values,
-             factor::LinearSystem& system, const std::string& label, const graph::Order& order) {
-  const graph::Pattern& pattern = problem.variables.pattern;
-  const auto start = std::chrono::steady_clock::now();
-  const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
-  const double plan = seconds_since(start);
-  std::vector<double> times;
-  for (int k = 0; k < options.runs && (k == 0 || !cmd::interrupted()); ++k) {
-    cmd::progress(k);
-    const auto begin = std::chrono::steady_clock::now();
-    if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
-    times.push_back(seconds_since(begin));
-  }
-  return {problem.graph->file,
-          label,
-          options.backend,
-          options.threads,
-          pattern.variables(),
-          problem.graph->edges(),
-          elim::elimination_complexity(pattern, order),
-          static_cast<int>(times.size()),
-          plan,
-          median(times)};
-}
-
-void print_times(const Options& options, const factor::Problem& problem,
-                 const factor::Values& values, cmd::Table<Timing>& table) {
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, solve::loss(options.robust, *problem.graph), system);
-  const graph::GraphPattern variables =
-      graph::graph_pattern(*problem.graph);  // without the gauge's row
-  cmd::finish_first();
-  for (const cmd::Method& method : cmd::methods(options.method, *problem.graph)) {
-    cmd::stage("order");
-    const graph::Order order = cmd::order_by(method, options.method, *problem.graph, variables);
-    cmd::stage("eliminate", options.runs);
-    table.row(timed(options, problem, values, system, method.label, order));
-  }
-}
-
 // The number alone; of several files, each after the file's name.
 void print_chi2(const Options& options, const factor::Problem& problem,
-                const factor::Values& values, cmd::Output& output) {
-  const double chi2 =
-      factor::finite_chi2(problem, values, solve::loss(options.robust, *problem.graph));
+                const factor::Values& values, const factor::Loss& loss, cmd::Output& output) {
+  const double chi2 = factor::finite_chi2(problem, values, loss);
   if (options.inputs.paths.size() > 1) output.write(problem.graph->file + "\t");
   output.write(text::format_number(chi2) + "\n");
 }
@@ -288,16 +208,18 @@ void warn_of_scale(const cmd::Command& command) {
             "that measures a length)");
 }
 
+// What the user says, or the graph's own.
+std::string_view start_name(const Options& options, const Graph& graph) {
+  return options.start.empty() ? solve::own_start(graph) : std::string_view(options.start);
+}
+
 // Where the user says, or the best of several.
 std::vector<solve::Candidate> candidates(const Options& options, const factor::Problem& problem) {
   const factor::Loss loss = solve::loss(options.robust, *problem.graph);
   if (options.start.empty() && !options.robust.gnc) return solve::default_candidates(problem, loss);
   // False edges tell nothing of a start, so that --gnc's is not chosen by chi-square.
-  const std::string start = !options.start.empty()      ? options.start
-                            : problem.graph->edges_only ? "odometry"
-                                                        : "file";
   std::vector<solve::Candidate> one;
-  one.push_back(solve::make_candidate(problem, start, loss));
+  one.push_back(solve::make_candidate(problem, start_name(options, *problem.graph), loss));
   return one;
 }
 
@@ -361,7 +283,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   }
   cmd::write_filtered(command, options.output, graph,
                       cmd::estimate_changes(problem, values, moved(problem)));
-  tell(command, result, seconds_since(begin));
+  tell(command, result, cmd::seconds_since(begin));
 }
 
 void check_files(const Options& options) {
@@ -370,12 +292,6 @@ void check_files(const Options& options) {
     throw text::usage_error("--weights and -o are one file, '" + options.weights +
                             "': the table and the graph need each its own");
   cmd::check_output(options.weights);
-}
-
-// Of what is not optimized.
-factor::Values start_values(const Options& options, const factor::Problem& problem) {
-  return options.start.empty() ? factor::start_values(problem)
-                               : solve::find_start(options.start).make(problem);
 }
 
 void check_call(const cmd::Command& command, const Options& options) {
@@ -389,13 +305,14 @@ void check_call(const cmd::Command& command, const Options& options) {
   const std::initializer_list<const char*> optimizing{
       "--gn", "-i", "--tolerance", "--keep", "--no-trace-comment", "--gnc", "--weights"};
   const std::initializer_list<const char*> eliminating{"-m", "--seed", "--backend", "-j"};
-  if (options.chi2) cmd::refuse(app, optimizing, "with --chi2, which does not optimize");
-  if (options.residuals) cmd::refuse(app, optimizing, "with --residuals, which does not optimize");
-  if (options.certify) cmd::refuse(app, optimizing, "with --certify, which does not optimize");
-  if (options.runs > 0) cmd::refuse(app, optimizing, "with --time, which does not optimize");
-  if (options.chi2) cmd::refuse(app, eliminating, "with --chi2, which eliminates nothing");
-  if (options.residuals)
-    cmd::refuse(app, eliminating, "with --residuals, which eliminates nothing");
+  for (const std::string job : {"--chi2", "--residuals", "--certify", "--time"}) {
+    if (cmd::given(app, job))
+      cmd::refuse(app, optimizing, "with " + job + ", which does not optimize");
+  }
+  for (const std::string job : {"--chi2", "--residuals"}) {
+    if (cmd::given(app, job))
+      cmd::refuse(app, eliminating, "with " + job + ", which eliminates nothing");
+  }
   if (options.certify)
     cmd::refuse(app, {"-m", "--seed", "--backend", "-j", "--kernel"}, "with --certify");
   if (options.runs == 0 && !options.residuals && !options.certify && options.weights.empty())
@@ -408,15 +325,6 @@ void check_call(const cmd::Command& command, const Options& options) {
   check_files(options);
 }
 
-// The vertices that the call has for constants, beside the file's.
-void fix(Graph& graph, const std::vector<Id>& ids) {
-  for (const Id id : ids) {
-    const auto v = graph::find_vertex(graph, id);
-    if (!v) throw text::usage_error("--fix: the graph has no vertex " + std::to_string(id));
-    graph.fixed[*v] = true;
-  }
-}
-
 void run(const cmd::Command& command, const Options& options) {
   check_call(command, options);  // a wrong call is told before a long read
   solve::find_backend(options.backend);
@@ -425,15 +333,15 @@ void run(const cmd::Command& command, const Options& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
   std::optional<cmd::Output> output;
-  std::optional<cmd::Table<Timing>> times;
+  std::optional<cmd::Table<solve::Timing>> times;
   if (options.chi2 || options.runs > 0) output.emplace(options.output.path);
   if (options.runs > 0) {
     const cmd::Given given{{"several files", options.inputs.paths.size() > 1}};
-    times.emplace(options.table, time_columns, given, *output);
+    times.emplace(options.table, solve::time_columns, given, *output);
   }
   for (const std::string& path : options.inputs.paths) {
     Graph graph = cmd::read(options.inputs, path);
-    fix(graph, options.fixed);
+    for (const Id id : options.fixed) graph.fixed[cmd::vertex_of(graph, "--fix", id)] = true;
     cmd::stage("start");
     const factor::Problem problem = factor::make_problem(graph);
     const bool looks = options.chi2 || options.residuals || options.certify || times;
@@ -441,16 +349,17 @@ void run(const cmd::Command& command, const Options& options) {
       solve(command, options, problem);
       continue;
     }
-    const factor::Values values = start_values(options, problem);
+    const factor::Loss loss = solve::loss(options.robust, graph);
+    const factor::Values values = solve::find_start(start_name(options, graph)).make(problem);
     if (options.chi2) {
-      print_chi2(options, problem, values, *output);
+      print_chi2(options, problem, values, loss, *output);
     } else if (options.residuals) {
-      print_residuals(options, options.output.path, problem, values,
-                      solve::loss(options.robust, graph));
+      print_residuals(options, options.output.path, problem, values, loss);
     } else if (options.certify) {
       print_certificate(command, options, problem, values);
     } else {
-      print_times(options, problem, values, *times);
+      solve::print_times({options.runs, options.threads, options.backend, options.method, loss},
+                         problem, values, *times);
     }
   }
   if (output) output->commit();

@@ -175,9 +175,7 @@ bool below_a_pose(const Graph& graph, const std::vector<bool>& used, Index v, Id
 }
 
 // Whether the numbers of landmarks give their ids back: reading counts them on from the last pose.
-bool ids_stay(const Graph& graph) {
-  const std::vector<bool> used = mentioned(graph);
-  const Id last = last_pose(graph, used);
+bool ids_stay(const Graph& graph, const std::vector<bool>& used, Id last) {
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (below_a_pose(graph, used, v, last)) return false;
   }
@@ -236,8 +234,10 @@ Losses isam_losses(const Graph& graph) {
 }
 
 void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
-  // What is taken off a landmark's id.
-  const Id first = ids_stay(graph) ? last_pose(graph, mentioned(graph)) + 1 : 0;
+  const std::vector<bool> used = mentioned(graph);
+  const Id last = last_pose(graph, used);
+  const bool stay = ids_stay(graph, used, last);
+  const Id first = stay ? last + 1 : 0;  // what is taken off a landmark's id
   std::string out;
   for (Index e = 0; e < graph.edges(); ++e) {
     if (!holds_edge(graph, e)) continue;
@@ -249,8 +249,7 @@ void write_isam(const Graph& graph, const WriteOptions&, Sink& sink) {
     }
     sink.write(out += '\n');
   }
-  if (!ids_stay(graph)) return;
-  const std::vector<bool> used = mentioned(graph);
+  if (!stay) return;
   std::vector<Offset> estimates;  // in the file's order
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (used[v] && graph.vertex_line[v] != graph::implied)

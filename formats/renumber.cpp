@@ -35,11 +35,6 @@ Id new_param(const NewIds& ids, Id id) {
   return it == ids.params.end() ? id : it->second;
 }
 
-std::string_view without_end(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
 // TAG ID [COUNT] ID... PARAM... NUMBER...; nothing where no id changes.
 std::optional<std::string> edge_line(const Graph& graph, const NewIds& ids, Index e) {
   const graph::EdgeType& type = graph.type_of_edge(e);
@@ -50,7 +45,7 @@ std::optional<std::string> edge_line(const Graph& graph, const NewIds& ids, Inde
     for (const Id id : graph::edge_params(graph, e)) changes |= new_param(ids, id) != id;
   }
   if (!changes) return std::nullopt;
-  Words words(without_end(graph::line_at(graph, graph.edge_line[e])));
+  Words words(without_return(graph::line_at(graph, graph.edge_line[e])));
   words.next();
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     if (k == 1 && type.counted) words.next();
@@ -62,20 +57,20 @@ std::optional<std::string> edge_line(const Graph& graph, const NewIds& ids, Inde
 }
 
 Edit line_edit(const Graph& graph, Offset line, std::string replacement) {
-  const auto length = static_cast<Offset>(without_end(graph::line_at(graph, line)).size());
+  const auto length = static_cast<Offset>(without_return(graph::line_at(graph, line)).size());
   return {line, line + length, std::move(replacement)};
 }
 
 // TAG ID ...
 Edit renamed(const Graph& graph, Offset line, Id id) {
-  Words words(without_end(graph::line_at(graph, line)));
+  Words words(without_return(graph::line_at(graph, line)));
   words.next();
   words.replace(id);
   return line_edit(graph, line, words.line());
 }
 
 Edit renamed_fix(const Graph& graph, const NewIds& ids, Offset line) {
-  Words words(without_end(graph::line_at(graph, line)));
+  Words words(without_return(graph::line_at(graph, line)));
   words.next();
   while (!words.at_end()) {
     auto rest = words.rest();

@@ -10,8 +10,7 @@ namespace {
 // TAG ID... PARAM... MEASUREMENT... INFORMATION... EXTRA...
 std::string scaled_line(const Graph& graph, Index e, double factor) {
   const graph::EdgeType& type = graph.type_of_edge(e);
-  std::string_view line = graph::line_at(graph, graph.edge_line[e]);
-  if (line.ends_with('\r')) line.remove_suffix(1);
+  const std::string_view line = without_return(graph::line_at(graph, graph.edge_line[e]));
   std::string_view rest = line;
   const int before = 1 + type.arity + type.params.size + type.measurement;
   for (int k = 0; k < before; ++k) text::next_word(rest);

@@ -85,9 +85,8 @@ class LineEdits {
       if (changes_.drop_edge[e_] || late) {
         edge_ = Edit{begin, line_extent(graph_, begin).second, ""};
       } else if (auto line = changes_.edge_line ? changes_.edge_line(e_) : std::nullopt) {
-        const std::string_view old = graph::line_at(graph_, begin);  // its line end stays
-        const Offset length = old.size() - (old.ends_with('\r') ? 1 : 0);
-        edge_ = Edit{begin, begin + length, std::move(*line)};
+        const std::string_view old = without_return(graph::line_at(graph_, begin));
+        edge_ = Edit{begin, begin + static_cast<Offset>(old.size()), std::move(*line)};
       }
     }
   }
@@ -128,6 +127,11 @@ bool needs_newline(std::string_view before) {
 }
 
 }  // namespace
+
+std::string_view without_return(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
 
 std::pair<Offset, Offset> line_extent(const Graph& graph, Offset line) {
   const auto end = graph.text.view.find('\n', static_cast<std::size_t>(line));

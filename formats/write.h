@@ -33,6 +33,9 @@ std::pair<Offset, Offset> line_extent(const Graph& graph, Offset line);
 // it directly).
 std::pair<Offset, Offset> vertex_extent(const Graph& graph, Index v);
 
+// A line without the \r that a text from elsewhere has before its newline.
+std::string_view without_return(std::string_view line);
+
 // What a filter leaves out, rewrites and adds. Sized by `unchanged`.
 struct Changes {
   std::vector<bool> drop_vertex;  // n; drops its data lines and its id in FIX lines, too

@@ -6,6 +6,12 @@
 
 namespace sg::cmd {
 
+Index vertex_of(const Graph& graph, const std::string& option, Id id) {
+  const auto v = graph::find_vertex(graph, id);
+  if (!v) throw text::usage_error(option + ": the graph has no vertex " + std::to_string(id));
+  return *v;
+}
+
 std::pair<Id, Id> parse_range(const std::string& option, std::string_view text) {
   const auto colon = text.find(':');
   const auto first = text::parse<Id>(text.substr(0, colon));
@@ -25,7 +31,7 @@ std::vector<std::pair<Id, Id>> parse_ranges(const std::string& option,
 
 std::vector<std::pair<Id, Id>> ranges_of_vertices(const Graph& graph, const std::string& option,
                                                   const std::vector<std::string>& texts) {
-  const auto ranges = parse_ranges(option, texts);
+  auto ranges = parse_ranges(option, texts);
   for (std::size_t k = 0; k < texts.size(); ++k) {
     const auto there = std::ranges::lower_bound(graph.id, ranges[k].first);
     if (there == graph.id.end() || *there > ranges[k].second)

@@ -1,4 +1,4 @@
-// Ranges of ids in a call: "7" or "3:9", and lists of them.
+// Vertices that a call names: by an id, by ranges of ids, "7" or "3:9", and lists of them.
 #pragma once
 
 #include <string>
@@ -9,6 +9,9 @@
 #include "lib/graph/graph.h"
 
 namespace sg::cmd {
+
+// Throws a usage Error where the graph has no such vertex.
+Index vertex_of(const Graph& graph, const std::string& option, Id id);
 
 // A closed range; throws a usage Error for text that is none.
 std::pair<Id, Id> parse_range(const std::string& option, std::string_view text);

@@ -24,10 +24,6 @@ struct Times {
   std::clock_t processor = std::clock();
 };
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 // One command, one list of stages.
 struct Stages {
   std::string command;
@@ -100,6 +96,10 @@ void start_showing() {
 }
 
 }  // namespace
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 void begin_stages(const std::string& command, bool quiet, bool verbose) {
   all.command = command;

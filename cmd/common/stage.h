@@ -5,6 +5,7 @@
 // over a second is shown as long as it lasts.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -22,6 +23,9 @@ void progress(std::int64_t done);
 void note(const std::string& what);
 // Its name; empty between stages.
 std::string current_stage();
+
+// By the clock on the wall.
+double seconds_since(std::chrono::steady_clock::time_point start);
 
 // "sg-ec: text" on standard error.
 void say(const std::string& text);

@@ -162,6 +162,7 @@ class Table {
   static std::vector<std::string> names(const std::vector<Column<Row>>& columns,
                                         const std::vector<std::size_t>& chosen) {
     std::vector<std::string> result;
+    result.reserve(chosen.size());
     for (const std::size_t k : chosen) result.push_back(columns[k].name);
     return result;
   }

@@ -15,8 +15,7 @@ solve::NormalEquations normal_equations(const Graph& graph) {
   const factor::Values values = factor::start_values(problem);
   problem.held = -1;  // the gauge's row is the solvers', not the graph's
   problem.variables = graph::graph_pattern(graph);
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, {}, system);
+  const factor::LinearSystem system = factor::linearized(problem, values);
   graph::Order order(problem.variables.pattern.variables());
   std::iota(order.begin(), order.end(), 0);
   solve::NormalEquations normal = solve::normal_structure(system, order);

@@ -155,6 +155,12 @@ void linearize(const Problem& problem, const Values& values, const Loss& loss,
     check_row(problem, r, {system.block(r), system.block(r + 1)});
 }
 
+LinearSystem linearized(const Problem& problem, const Values& values, const Loss& loss) {
+  LinearSystem system = make_linear_system(problem);
+  linearize(problem, values, loss, system);
+  return system;
+}
+
 double edge_chi2(const Problem& problem, const Values& values, Index e) {
   const Model& model = *problem.model[e];
   const Ends x = ends_of(problem, values, e);

@@ -53,6 +53,10 @@ constexpr double largest_entry = 1e140;
 void linearize(const Problem& problem, const Values& values, const Loss& loss,
                LinearSystem& system);
 
+// A system with its numbers.
+LinearSystem linearized(const Problem& problem, const Values& values, const Loss& loss = {});
+LinearSystem linearized(const Problem&&, const Values&, const Loss& loss = {}) = delete;
+
 // e' W e of one edge, and its sum over all edges (with a loss: of rho), those between fixed
 // vertices included.
 double edge_chi2(const Problem& problem, const Values& values, Index e);

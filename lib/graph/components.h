@@ -17,6 +17,16 @@ Components components(const Graph& graph, const std::vector<bool>& edge_removed 
 Components components(const Lists<>& lists, Index count,
                       const std::vector<bool>& list_removed = {});
 
+// Items 0 .. count - 1, each alone at first.
+struct DisjointSets {
+  explicit DisjointSets(Index count);
+  std::vector<Index> rank, parent;
+};
+// One item that stands for all of k's set.
+Index find(DisjointSets& sets, Index k);
+// Makes one set of two. Whether they were two.
+bool join(DisjointSets& sets, Index a, Index b);
+
 // Number of vertices of every component.
 std::vector<Index> sizes(const Components& components);
 

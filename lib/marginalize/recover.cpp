@@ -44,13 +44,6 @@ MatrixXd information(const Scaled& problem, const Blocks& V) {
   return Q;
 }
 
-// log det; infinitely small where it is not positive definite.
-double log_det(const MatrixXd& matrix) {
-  const LLT<MatrixXd> cholesky(matrix);
-  if (cholesky.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
-  return 2 * MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
-}
-
 double objective(const Scaled& problem, const Blocks& V, const RecoveryOptions& options,
                  double barrier) {
   const MatrixXd Q = information(problem, V);
@@ -165,6 +158,12 @@ void minimize(const Scaled& problem, const RecoveryOptions& options, double barr
 }
 
 }  // namespace
+
+double log_det(const MatrixXd& matrix) {
+  const LLT<MatrixXd> cholesky(matrix);
+  if (cholesky.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
+  return 2 * MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
+}
 
 Recovery recover(std::span<const MatrixXd> slopes, const MatrixXd& covariance,
                  const RecoveryOptions& options) {

@@ -17,6 +17,9 @@
 
 namespace sg::marginalize {
 
+// Minus infinity where it is not positive definite.
+double log_det(const Eigen::MatrixXd& matrix);
+
 struct Recovery {
   std::vector<Eigen::MatrixXd> information;  // W_k, positive definite
   double divergence;                         // of Kullback and Leibler

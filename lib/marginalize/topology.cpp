@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/graph/components.h"
 #include "lib/marginalize/recover.h"
 
 namespace sg::marginalize {
@@ -25,10 +26,6 @@ bool is_pose(const At& at, Index v) {
   return at.problem.graph->role(v) == graph::Role::pose;
 }
 
-double log_det(const MatrixXd& matrix) {
-  return 2 * MatrixXd(LLT<MatrixXd>(matrix).matrixL()).diagonal().array().log().sum();
-}
-
 // A slope in the steps of a measurement's own vertices, in those of the blanket.
 MatrixXd spread(const At& at, const Measurable& of, const Blanket& blanket) {
   const MatrixXd own = slope(at, of);
@@ -43,23 +40,6 @@ MatrixXd spread(const At& at, const Measurable& of, const Blanket& blanket) {
   }
   return all;
 }
-
-// A component of vertices, by union-find; -1 is the world.
-struct Parts {
-  std::vector<Index> parent;
-
-  Index find(Index k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-  }
-  bool join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    parent[a] = b;
-    return true;
-  }
-};
 
 // By how much a tree is wrong about a pair: the divergence of the pair's Gaussian from that which the tree has.
 double surprise(const Pair& pair, const MatrixXd& tree_covariance) {
@@ -79,6 +59,7 @@ std::vector<Index> others(const std::vector<Pair>& pairs, const Tree& tree) {
 
 std::vector<MatrixXd> slopes_of(const std::vector<Pair>& pairs, const std::vector<Index>& which) {
   std::vector<MatrixXd> slopes;
+  slopes.reserve(which.size());
   for (const Index k : which) slopes.push_back(pairs[k].slope);
   return slopes;
 }
@@ -221,12 +202,13 @@ Tree spanning_tree(const At& at, const Blanket& blanket, const std::vector<Pair>
   std::vector<Index> order(pairs.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<double> cost;
+  cost.reserve(pairs.size());
   for (const Pair& pair : pairs) cost.push_back(log_det(pair.covariance));
   std::ranges::stable_sort(order, {}, [&](Index k) { return cost[k]; });
 
   Tree tree;
-  Parts parts{std::vector<Index>(blanket.vertices.size() + 1)};
-  std::iota(parts.parent.begin(), parts.parent.end(), 0);
+  graph::DisjointSets parts(static_cast<Index>(blanket.vertices.size()) +
+                            1);  // the last: the world
   std::vector<bool> leaf(blanket.vertices.size() + 1, false);
   // What can be passed through first, then the leaves.
   for (const bool leaves : {false, true}) {
@@ -234,14 +216,14 @@ Tree spanning_tree(const At& at, const Blanket& blanket, const std::vector<Pair>
       const auto [type, u, v] = pairs[k].of;
       const Index end = is_leaf(u) ? u : is_leaf(v) ? v : -1;
       if ((end >= 0) != leaves || (leaves && leaf[number(end)])) continue;
-      if (!parts.join(number(u), number(v))) continue;
+      if (!join(parts, number(u), number(v))) continue;
       if (leaves) leaf[number(end)] = true;
       tree.pairs.push_back(k);
     }
   }
   const Index root = absolute ? number(-1) : 0;
   for (Index k = 0; k < std::ssize(blanket.vertices); ++k) {
-    if (parts.find(k) != parts.find(root)) tree.missing = blanket.vertices[k];
+    if (find(parts, k) != find(parts, root)) tree.missing = blanket.vertices[k];
   }
   std::ranges::sort(tree.pairs);
   return tree;

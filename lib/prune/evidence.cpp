@@ -35,8 +35,7 @@ void add_tree_row(Evidence& evidence, std::span<const Index> variables, bool con
 }  // namespace
 
 Evidence measured_evidence(const factor::Problem& problem, const factor::Values& values) {
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, {}, system);
+  factor::LinearSystem system = factor::linearized(problem, values);
   Evidence evidence;
   evidence.pattern = problem.variables.pattern;
   evidence.height = std::move(system.height);

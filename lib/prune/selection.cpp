@@ -1,7 +1,6 @@
 #include "lib/prune/selection.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "lib/graph/components.h"
 #include "lib/prune/candidates.h"
@@ -15,21 +14,12 @@ void join_parts(const Choice& choice, const std::vector<bool>& observation,
                 std::vector<bool>& kept) {
   const graph::Components parts =
       graph::components(choice.graph, removal_of_rest(choice.graph, choice.candidates, kept).edge);
-  std::vector<Index> leader(parts.count);
-  std::iota(leader.begin(), leader.end(), 0);
-  const auto find = [&](Index v) {
-    Index p = parts.of[v];
-    while (leader[p] != p) p = leader[p] = leader[leader[p]];
-    return p;
-  };
+  graph::DisjointSets joined(parts.count);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (kept[i] || observation[i]) continue;
     const auto ends = choice.graph.edge(choice.candidates[i]);
     for (const Index v : ends) {
-      const Index first = find(ends[0]), other = find(v);
-      if (first == other) continue;
-      leader[other] = first;
-      kept[i] = true;
+      if (join(joined, parts.of[ends[0]], parts.of[v])) kept[i] = true;
     }
   }
 }

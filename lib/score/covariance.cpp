@@ -35,17 +35,11 @@ int standing(const factor::Problem& problem, Index v) {
 std::optional<solve::Elimination> eliminated(const factor::Problem& problem,
                                              const factor::Values& values,
                                              const graph::Order& order) {
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, {}, system);
-  std::optional<solve::Elimination> result = solve::plan_elimination(system, order);
-  if (!solve::eliminate(*result, system).empty()) result.reset();
-  return result;
+  return solve::eliminated(factor::linearized(problem, values), order);
 }
 
 text::Error singular_error(const factor::Problem& problem, const factor::Values& values) {
-  factor::LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, {}, system);
-  return solve::singular_error(problem, values, system);
+  return solve::singular_error(problem, values, factor::linearized(problem, values));
 }
 
 std::vector<MatrixXd> vertex_covariances(const factor::Problem& problem,

@@ -50,18 +50,9 @@ Values values_of(const Problem& problem, const Problem& reference, const Values&
   return values;
 }
 
-LinearSystem linearized(const Problem& problem, const Values& values) {
-  LinearSystem system = factor::make_linear_system(problem);
-  factor::linearize(problem, values, {}, system);
-  return system;
-}
-
 // Nothing where it is singular.
 std::optional<solve::Elimination> eliminated(const LinearSystem& system) {
-  solve::Elimination result =
-      solve::plan_elimination(system, order::elimination_order("wmf", *system.pattern));
-  if (!solve::eliminate(result, system).empty()) return std::nullopt;
-  return result;
+  return solve::eliminated(system, order::elimination_order("wmf", *system.pattern));
 }
 
 // Two systems in the variables of the first, one below the other; of one of them the numbers.
@@ -214,8 +205,8 @@ std::optional<Divergence> divergence(const Graph& graph, const Graph& reference)
   if (!variables || variables->empty() || (own.held < 0) != (full.held < 0)) return std::nullopt;
   if (own.held >= 0) hold(full, (*variables)[own.held]);
   const Values values = factor::start_values(full);
-  const LinearSystem p = linearized(full, values),
-                     q = linearized(own, values_of(own, full, values));
+  const LinearSystem p = factor::linearized(full, values),
+                     q = factor::linearized(own, values_of(own, full, values));
   Both both;
   stack(p, q, *variables, both);
   auto of_p = eliminated(both.reference), of_q = eliminated(q);

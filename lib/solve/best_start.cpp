@@ -117,7 +117,7 @@ std::vector<Candidate> default_candidates(const factor::Problem& problem,
   const auto add = [&](std::string_view start) {
     result.push_back(make_candidate(problem, start, loss));
   };
-  add(problem.graph->edges_only ? "odometry" : "file");
+  add(own_start(*problem.graph));
   if (measures_motions(problem)) add("chordal");
   std::ranges::stable_sort(result, [](const Candidate& a, const Candidate& b) {
     return a.chi2 < b.chi2 || (std::isfinite(a.chi2) && !std::isfinite(b.chi2));

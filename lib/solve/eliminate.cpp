@@ -236,6 +236,13 @@ std::vector<Index> eliminate(Elimination& e, const factor::LinearSystem& system,
   return undetermined;
 }
 
+std::optional<Elimination> eliminated(const factor::LinearSystem& system,
+                                      const graph::Order& order) {
+  std::optional<Elimination> result = plan_elimination(system, order);
+  if (!eliminate(*result, system).empty()) result.reset();
+  return result;
+}
+
 void back_substitute(Elimination& e, std::vector<double>& step) {
   const Kernels& kernel = kernels();
   step.resize(e.step_at.back());

@@ -15,6 +15,7 @@
 // Dellaert and Kaess, Square Root SAM (2006).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -70,6 +71,10 @@ Elimination plan_elimination(const factor::LinearSystem& system, const graph::Or
 // vanished next to the diagonal entry that it came from. They are held at zero in what follows.
 std::vector<Index> eliminate(Elimination& elimination, const factor::LinearSystem& system,
                              std::span<const double> damping = {});
+
+// Both, once; nothing where a variable is undetermined.
+std::optional<Elimination> eliminated(const factor::LinearSystem& system,
+                                      const graph::Order& order);
 
 // After eliminate: the step, by variable (step_at).
 void back_substitute(Elimination& elimination, std::vector<double>& step);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <queue>
+#include <tuple>
 
 #include "lib/factor/gauge.h"
 #include "lib/factor/initialize.h"
@@ -30,13 +31,8 @@ std::vector<bool> poses_of(const Graph& graph) {
   return result;
 }
 
-// A way to a vertex: the sum of the variances, and the last edge; -1 where the vertex stays.
-struct Way {
-  double variance;
-  Index vertex;
-  Index edge;
-  auto operator<=>(const Way&) const = default;
-};
+// A way: the sum of the variances, the vertex that it leads to, and the last edge; -1 where the vertex stays.
+using Way = std::tuple<double, Index, Index>;
 
 }  // namespace
 
@@ -46,6 +42,10 @@ std::span<const Start> starts() {
 
 std::string start_names() {
   return text::listed(text::names_of(table));
+}
+
+std::string_view own_start(const Graph& graph) {
+  return graph.edges_only ? "odometry" : "file";
 }
 
 const Start& find_start(std::string_view name) {

@@ -25,6 +25,8 @@ std::span<const Start> starts();
 // Throws a usage Error that lists the names.
 const Start& find_start(std::string_view name);
 std::string start_names();  // "a, b"
+// The name of a graph's own: its estimates, or of edges alone what odometry makes of them.
+std::string_view own_start(const Graph& graph);
 
 factor::Values chordal_start(const factor::Problem& problem);
 factor::Values tree_start(const factor::Problem& problem);

@@ -1,0 +1,42 @@
+// The table of sg-solve --time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cmd/common/method.h"
+#include "cmd/common/table.h"
+#include "lib/elim/score.h"
+#include "lib/factor/linearize.h"
+
+namespace sg::solve {
+
+// How long elimination takes, as --time measures it.
+struct Timing {
+  std::string file;
+  std::string order;
+  std::string backend;
+  int threads;
+  Index variables;
+  Index factors;
+  elim::Wide ec;
+  int runs;
+  double plan_s;
+  double median_s;
+};
+
+extern const std::vector<cmd::Column<Timing>> time_columns;
+
+struct TimingOptions {
+  int runs;  // eliminations under each ordering
+  int threads;
+  const std::string& backend;
+  const cmd::MethodOptions& methods;
+  const factor::Loss& loss;
+};
+
+// A row an ordering, of the system at `values`. Throws a computation Error where that is singular.
+void print_times(const TimingOptions& options, const factor::Problem& problem,
+                 const factor::Values& values, cmd::Table<Timing>& table);
+
+}  // namespace sg::solve
