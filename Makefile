@@ -10,7 +10,8 @@ JOBS   ?= $(shell nproc)
 build_packages := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
 	libcairo2-dev libspectra-dev pkg-config
-test_packages  := catch2 bats python3 mandoc graphviz zstd gzip bzip2 xz-utils
+python_packages := python3-dev python3-numpy pybind11-dev
+test_packages  := catch2 bats mandoc graphviz zstd gzip bzip2 xz-utils $(python_packages)
 lint_packages  := clang-format clang-tidy python3 mandoc git
 bench_packages := libbenchmark-dev
 fuzz_packages  := clang libclang-rt-14-dev
@@ -19,7 +20,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers starts marginalize lint format clean
+.PHONY: help deps build demo check python mutants install uninstall deb bench fuzz tsan paper orderings outliers starts marginalize lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -57,9 +58,13 @@ demo: build/packages/build ## generate | prune | reorder | score, as one table (
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -f experiments/demo/Makefile GRAPHS="$(GRAPHS)"
 
 check: build/packages/build build/packages/test ## build everything, and run every test
-	@$(call configure,-DSGTOOLS_TESTS=ON)
+	@$(call configure,-DSGTOOLS_TESTS=ON -DSGTOOLS_PYTHON=ON)
 	@$(call build,all)
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+python: build/packages/build build/packages/python ## build the Python package, into build/release/python
+	@$(call configure,$(commands_alone) -DSGTOOLS_PYTHON=ON)
+	@$(call build,sgtools_python)
 
 mutants: build/packages/build build/packages/test build/packages/lint ## break the sources in 400 places, one at a time, and list what no test notices
 	@nice tests/mutants/run --jobs $(JOBS) $(MUTANTS)
@@ -70,7 +75,7 @@ install: build ## install commands, man pages, and the library for CMake and pkg
 uninstall: ## remove what make install put there
 	@cmake -DMANIFEST=$(BUILD)/install_manifest.txt -P cmake/uninstall.cmake
 
-deb: build build/packages/deb ## make Debian packages, sgtools and libsgtools-dev, and prove that they install and go
+deb: build python build/packages/deb ## make Debian packages, and prove that they install and go
 	@rm -rf $(BUILD)/packages
 	@cd $(BUILD) && cpack -G DEB >/dev/null
 	@tests/install/deb $(BUILD)/packages

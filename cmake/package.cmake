@@ -1,5 +1,5 @@
-# Debian packages of what install.cmake installs: sgtools (commands, man pages, completions) and libsgtools-dev (the library
-# for those who build on it). `make deb` makes them; their maintainer is that of Debian's own tools, DEBFULLNAME and
+# Debian packages of what install.cmake installs: sgtools (commands, man pages, completions), libsgtools-dev (the library
+# for those who build on it) and, where it is built, python3-sgtools. `make deb` makes them; their maintainer is that of Debian's own tools, DEBFULLNAME and
 # DEBEMAIL.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "the sgtools authors")
@@ -33,4 +33,16 @@ set(CPACK_DEBIAN_LIBSGTOOLS-DEV_PACKAGE_DEPENDS
 set(CPACK_COMPONENT_LIBSGTOOLS-DEV_DESCRIPTION "What the commands of sgtools do, as a C++ library: reading graphs, elimination
 trees and their costs, orderings, solvers, pruning. It is static, with its
 headers, for CMake's find_package(sgtools) and for pkg-config.")
+
+if(SGTOOLS_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python3-sgtools)
+  set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_NAME python3-sgtools)
+  set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_SHLIBDEPS ON)
+  math(EXPR next "${Python_VERSION_MINOR} + 1")  # the module is of one minor version
+  set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_DEPENDS
+    "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_COMPONENT_PYTHON3-SGTOOLS_DESCRIPTION "The library of sgtools in Python, with numpy in and out: read SLAM graphs or build
+them from arrays, order, prune, solve and score them.")
+endif()
 include(CPack)

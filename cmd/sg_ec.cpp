@@ -189,19 +189,16 @@ using Show = std::function<void(const Subject&)>;
 void replay_rows(const Graph& graph, const std::string& file, const Options& options,
                  const Show& show) {
   const graph::Replay replay = graph::replay(graph, graph::pose_index(graph), options.min_obs);
-  const graph::Lists<> vertices = graph::grouped(replay.vertex_step, replay.steps);
-  const graph::Lists<> edges = graph::grouped(replay.edge_step, replay.steps);
-  std::vector<bool> vertex_in(graph.vertices(), false);
-  std::vector<bool> edge_in(graph.edges(), false);
   cmd::stage("replay", replay.steps);
-  for (Index k = 0; k < replay.steps && !cmd::interrupted(); ++k) {
-    for (const Index v : vertices[k]) vertex_in[v] = true;
-    for (const Index e : edges[k]) edge_in[e] = true;
-    cmd::progress(k);
-    if (k % options.every != 0 && k + 1 < replay.steps) continue;
-    const graph::GraphPattern variables = graph::graph_pattern(graph, vertex_in, edge_in);
-    show({options, file, k, vertices.begin[k + 1], edges.begin[k + 1], graph, variables});
-  }
+  graph::grow(graph, replay, [&](const graph::Grown& grown) {
+    cmd::progress(grown.step);
+    if (grown.step % options.every == 0 || grown.step + 1 == replay.steps) {
+      const graph::GraphPattern variables =
+          graph::graph_pattern(graph, grown.vertex_in, grown.edge_in);
+      show({options, file, grown.step, grown.vertices, grown.edges, graph, variables});
+    }
+    return !cmd::interrupted();
+  });
 }
 
 void show_file(const std::string& path, const Options& options, const Show& show) {

@@ -52,8 +52,6 @@ struct Options {
   bool keep = false;
 };
 
-constexpr int most_iterations = 1000;
-
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
   options.inputs.options.unknown_edge = factor::has_no_model;
@@ -104,7 +102,7 @@ solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
   solve::BatchOptions batch;
   batch.method = options.gauss_newton ? solve::BatchMethod::gauss_newton
                                       : solve::BatchMethod::levenberg_marquardt;
-  batch.iterations = options.iterations.value_or(most_iterations);
+  batch.iterations = options.iterations.value_or(solve::most_iterations);
   batch.tolerance = options.tolerance;
   batch.loss = solve::loss(options.robust, graph);
   return batch;
@@ -126,15 +124,6 @@ void print_iteration(const solve::Iteration& iteration) {
   for (const double seconds : {iteration.linearize_s, iteration.eliminate_s})
     line += '\t' + text::format_number(seconds);
   cmd::print_error(line + "\n");
-}
-
-// Which vertices' lines an optimization rewrites: all but the constants.
-std::vector<bool> moved(const factor::Problem& problem) {
-  std::vector<bool> result(problem.graph->vertices(), false);
-  for (std::size_t j = 0; j < problem.variables.variable_vertex.size(); ++j) {
-    result[problem.variables.variable_vertex[j]] = !factor::is_held(problem, static_cast<Index>(j));
-  }
-  return result;
 }
 
 std::string rounded(double number) {
@@ -279,7 +268,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
     print_residuals(options, options.weights, problem, values, batch.loss);
   }
   cmd::write_filtered(command, options.output, graph,
-                      cmd::estimate_changes(problem, values, moved(problem)));
+                      cmd::estimate_changes(problem, values, cmd::moved(problem)));
   tell(command, result, cmd::seconds_since(begin));
 }
 

@@ -13,12 +13,6 @@ std::string counted(std::ptrdiff_t count, std::size_t of, const char* things) {
 }
 
 // The kind of that name; an empty name means the graph's natural candidates.
-prune::Candidates candidates_named(const std::string& name, const Graph& graph) {
-  if (name == "observations") return prune::Candidates::observations;
-  if (name == "loops") return prune::Candidates::loops;
-  return name == "both" ? prune::Candidates::both : prune::natural_candidates(graph);
-}
-
 }  // namespace
 
 void add_pruning(Command& command, PruneOptions& options) {
@@ -66,7 +60,7 @@ Prunable read_prunable(const PruneOptions& options) {
   Prunable result;
   result.graph = read(options.input);
   result.poses = graph::pose_index(result.graph);
-  result.kind = candidates_named(options.candidates, result.graph);
+  result.kind = prune::candidates_named(options.candidates, result.graph);
   result.candidates = prune::candidate_edges(result.graph, result.poses, result.kind);
   return result;
 }

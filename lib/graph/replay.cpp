@@ -141,4 +141,18 @@ Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs) {
   return result;
 }
 
+void grow(const Graph& graph, const Replay& replay, const std::function<bool(const Grown&)>& show) {
+  const Lists<> vertices = grouped(replay.vertex_step, replay.steps);
+  const Lists<> edges = grouped(replay.edge_step, replay.steps);
+  Grown grown{0, std::vector<bool>(graph.vertices(), false),
+              std::vector<bool>(graph.edges(), false)};
+  for (; grown.step < replay.steps; ++grown.step) {
+    for (const Index v : vertices[grown.step]) grown.vertex_in[v] = true;
+    for (const Index e : edges[grown.step]) grown.edge_in[e] = true;
+    grown.vertices = vertices.begin[grown.step + 1];
+    grown.edges = edges.begin[grown.step + 1];
+    if (!show(grown)) return;
+  }
+}
+
 }  // namespace sg::graph

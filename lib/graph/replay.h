@@ -2,6 +2,7 @@
 // of a replay.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lib/graph/graph.h"
@@ -40,5 +41,14 @@ struct Replay {
   std::vector<Index> edge_step;    // m
 };
 Replay replay(const Graph& graph, const PoseIndex& poses, int min_obs = 1);
+
+// What is in after step `step`: vertices and edges, marked and counted.
+struct Grown {
+  Index step;
+  std::vector<bool> vertex_in, edge_in;
+  Index vertices = 0, edges = 0;
+};
+// Shows the growing graph after every step, as long as that says to go on.
+void grow(const Graph& graph, const Replay& replay, const std::function<bool(const Grown&)>& show);
 
 }  // namespace sg::graph

@@ -39,6 +39,15 @@ Candidates natural_candidates(const Graph& graph) {
   return Candidates::loops;
 }
 
+Candidates candidates_named(std::string_view name, const Graph& graph) {
+  if (name.empty()) return natural_candidates(graph);
+  if (name == "observations") return Candidates::observations;
+  if (name == "loops") return Candidates::loops;
+  if (name == "both") return Candidates::both;
+  throw text::usage_error("candidates: observations, loops or both, not '" + std::string(name) +
+                          "'");
+}
+
 std::vector<Index> candidate_edges(const Graph& graph, const graph::PoseIndex& poses,
                                    Candidates kind) {
   std::vector<Index> edges;

@@ -17,6 +17,8 @@ enum class Candidates : std::uint8_t { observations, loops, both };
 
 // Observations where the graph has landmarks, loop closures where it has none.
 Candidates natural_candidates(const Graph& graph);
+// "observations", "loops" or "both"; the natural ones where the name is empty. Throws a usage Error for another.
+Candidates candidates_named(std::string_view name, const Graph& graph);
 // Edges, in file order.
 std::vector<Index> candidate_edges(const Graph& graph, const graph::PoseIndex& poses,
                                    Candidates kind);
