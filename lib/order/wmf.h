@@ -77,6 +77,11 @@ struct GreedyResult {
 GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
                          const GreedyOptions& options);
 
+// One pass over a part of a graph (fill_graph.h): its first `inner` variables. The order is of
+// these alone, and so is its EC. Neither seed nor stage.
+GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
+                                 Index inner);
+
 struct WmfOptions {
   std::vector<Index> last;  // to be eliminated after all others
   std::uint64_t seed = 0;   // as in GreedyOptions
