@@ -13,9 +13,8 @@
 namespace sg::order {
 namespace {
 
-constexpr Index small_piece = 300;    // not parted
-constexpr Index medium_piece = 1200;  // ordered both ways
-constexpr int candidates = 2;         // separators tried a piece
+constexpr Index small_piece = 400;    // not parted
+constexpr Index medium_piece = 800;   // ordered both ways
 constexpr double largest_part = 0.9;  // of a piece; a separator that leaves more parts nothing
 
 struct Graph {
@@ -136,7 +135,7 @@ bool parts_nothing(const Piece& piece, const graph::Lists<>& parts) {
 
 Dissected dissected(Graph& graph, const Piece& piece) {
   if (piece.size() <= small_piece) return by_minimum_fill(piece);
-  const Separation side = separation(piece, candidates, graph.seed + 1);
+  const Separation side = separation(piece, graph.seed + 1);
   if (side.empty()) return by_minimum_fill(piece);
   const graph::Lists<> below = parts(piece, side);
   if (parts_nothing(piece, below)) return by_minimum_fill(piece);

@@ -118,12 +118,19 @@ void improve(const Piece& piece, double c, Candidate& best) {
   }
 }
 
+// How many candidates a piece is worth: the more, the more each of its edges will cost.
+int worthwhile(const Piece& piece, double price) {
+  const auto entries = static_cast<double>(piece.inside.items.size() + piece.around.items.size());
+  return static_cast<int>(std::clamp(std::log10(price / entries) - 2.5, 1.0, 4.0));
+}
+
 }  // namespace
 
-Separation separation(const Piece& piece, int candidates, std::uint64_t seed) {
+Separation separation(const Piece& piece, std::uint64_t seed) {
   Candidate best;
   std::optional<double> c;  // of the first, so that all are measured alike
-  for (int k = 0; k < candidates; ++k) {
+  int enough = 4;           // as long as none has two sides
+  for (int k = 0; k < enough; ++k) {
     Separation side = metis_separation(piece, seed + static_cast<std::uint64_t>(k));
     const Sizes found = sizes(piece, side);
     if (!c) {
@@ -134,6 +141,7 @@ Separation separation(const Piece& piece, int candidates, std::uint64_t seed) {
     if (!std::isfinite(next.price)) continue;
     improve(piece, *c, next);
     if (next.price < best.price) best = std::move(next);
+    enough = worthwhile(piece, best.price);
   }
   return best.side;
 }

@@ -20,7 +20,7 @@
 
 namespace sg::order {
 
-// The cheapest of so many candidates; empty if none leaves two sides.
-Separation separation(const Piece& piece, int candidates, std::uint64_t seed);
+// The cheapest of a few candidates; empty if none leaves two sides.
+Separation separation(const Piece& piece, std::uint64_t seed);
 
 }  // namespace sg::order

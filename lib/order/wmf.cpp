@@ -106,9 +106,11 @@ void run(Graph& g, const Preference& preference, Predicate enough) {
 
 // Eliminates the rest of g by bounds. Its ec is one from above: mass elimination puts variables
 // before their pivot whose own fronts it does not know.
-Supervariables run_by_bounds(FillGraph&& g, const Preference& preference, elim::Wide limit) {
+Supervariables run_by_bounds(FillGraph&& g, const Preference& preference,
+                             const GreedyOptions& options) {
   QuotientGraph rest = quotient_graph(std::move(g));
-  run(rest, preference, [&](Index) { return rest.variables.ec > limit; });
+  run(rest, preference,
+      [&](Index) { return rest.variables.ec > options.limit || rest.work > options.bounded_work; });
   return std::move(rest.variables);
 }
 
@@ -165,9 +167,9 @@ GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& 
     result.order = std::move(g.variables.order);
     return result;
   }
-  Supervariables variables = run_by_bounds(std::move(g), preference, options.limit);
+  Supervariables variables = run_by_bounds(std::move(g), preference, options);
   result.ec = variables.ec;
-  if (result.ec > options.limit) return result;
+  if (result.ec > options.limit || variables.order.size() < pattern.dim.size()) return result;
   result.order = std::move(variables.order);
   result.ec = elim::elimination_complexity(pattern, result.order);
   return result;
@@ -223,10 +225,9 @@ namespace {
 
 // The better of the greedy passes that the size of the graph affords.
 GreedyResult minimum_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
-                          std::uint64_t seed) {
-  GreedyOptions greedy;
-  greedy.seed = seed;
+                          GreedyOptions greedy) {
   GreedyResult best = greedy_fill(pattern, graph, greedy);
+  if (best.order.empty()) return best;
   const std::int64_t size = entries(graph);
   if (best.work <= 25 * size) {
     try_cheap(pattern, graph, greedy, best);
@@ -243,22 +244,25 @@ GreedyResult by_dissection(const graph::Pattern& pattern, const graph::Adjacency
   return result;
 }
 
-// EC a list entry of the graph: above the one, dissection may be better; above the other, it is on a large graph.
-constexpr std::int64_t narrow = 300, wide = 4000, large = 30000;
+// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, minimum fill is not on a
+// graph of so many entries.
+constexpr std::int64_t narrow = 1000, wide = 4000, large = 30000;
+// List entries that a pass may look at for every entry of a large graph.
+constexpr std::int64_t most_work = 20;
 
 }  // namespace
 
 graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
   const graph::Adjacency graph = graph::adjacency(pattern);
+  GreedyOptions greedy;
+  greedy.seed = options.seed;
   if (!options.last.empty()) {
-    GreedyOptions greedy;
     greedy.stage = stages(pattern.variables(), options.last);
-    greedy.seed = options.seed;
     return greedy_fill(pattern, graph, greedy).order;
   }
   const std::int64_t size = entries(graph);
   if (size <= large) {
-    GreedyResult best = minimum_fill(pattern, graph, options.seed);
+    GreedyResult best = minimum_fill(pattern, graph, greedy);
     if (best.ec > static_cast<elim::Wide>(narrow * size)) {
       keep_better(best, by_dissection(pattern, graph, options.seed));
     }
@@ -266,8 +270,9 @@ graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
   }
   GreedyResult best = by_dissection(pattern, graph, options.seed);
   if (best.ec > static_cast<elim::Wide>(wide * size)) return std::move(best.order);
-  GreedyResult other = minimum_fill(pattern, graph, options.seed);
-  return std::move(other.ec <= best.ec ? other.order : best.order);
+  greedy.bounded_work = most_work * size;  // hubs are in every front, and have long lists
+  keep_better(best, minimum_fill(pattern, graph, greedy));
+  return std::move(best.order);
 }
 
 namespace methods {
