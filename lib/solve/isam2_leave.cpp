@@ -69,7 +69,8 @@ Parts parts_of(const Isam2& isam, const Isam2Clique& clique) {
                               std::back_inserter(parts.staying), leaves(isam));
   std::vector<Index> touched;
   const auto reaches = [&](std::span<const Index> variables) {
-    if (std::ranges::none_of(variables, leaves(isam))) return false;
+    if (std::ranges::none_of(variables, [&](Index j) { return holds(parts.leaving, j); }))
+      return false;
     touched.insert(touched.end(), variables.begin(), variables.end());
     return true;
   };
@@ -81,11 +82,9 @@ Parts parts_of(const Isam2& isam, const Isam2Clique& clique) {
     if (is_prior(child) && reaches(separators_of(isam.tree, child))) parts.priors.push_back(d);
   }
   std::ranges::sort(touched);
-  const auto is_neighbour = [&](Index j) {
-    return !isam.leaving[j] && std::ranges::binary_search(touched, j);
-  };
-  for (const auto& list : {frontals, separators})
-    std::ranges::copy_if(list, std::back_inserter(parts.neighbours), is_neighbour);
+  const auto is_touched = [&](Index j) { return std::ranges::binary_search(touched, j); };
+  std::ranges::copy_if(parts.staying, std::back_inserter(parts.neighbours), is_touched);
+  std::ranges::copy_if(separators, std::back_inserter(parts.neighbours), is_touched);
   return parts;
 }
 
