@@ -48,8 +48,7 @@ elim::Wide cost(std::int64_t f, std::int64_t s) {
 elim::Wide cost_without(const Isam2& isam, std::span<const Index> frontals, auto&& variable,
                         std::int64_t s) {
   std::int64_t f = 0;
-  for (Index j : frontals)
-    f += isam.leaving[variable(j)] ? 0 : pattern_of(isam).dim[variable(j)];
+  for (Index j : frontals) f += isam.leaving[variable(j)] ? 0 : pattern_of(isam).dim[variable(j)];
   return cost(f, s);
 }
 

@@ -180,6 +180,7 @@ Isam2Report window_step(Isam2Window& window, Index k) {
   const Entering entering = enter(window.replay, step.vertices, step.edges);
   measure(window, k);
   note_sightings(window, step, k);
+  for (Index e : step.edges) window.constant += pattern_of(isam).rows[e].empty() ? 1 : 0;
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
   std::vector<Index> leaving;
@@ -189,6 +190,13 @@ Isam2Report window_step(Isam2Window& window, Index k) {
     take_leave(isam, leaving, window.options.smooth, report);
   check_solved(window.replay, k, report);
   return report;
+}
+
+Index factors(const Isam2Window& window) {
+  const factor::Problem& problem = *window.replay.problem;
+  const bool gauge =
+      problem.held >= 0 && window.replay.isam.tree.row_clique[problem.graph->edges()] >= 0;
+  return window.replay.isam.rows - (gauge ? 1 : 0) + window.constant;
 }
 
 }  // namespace sg::solve

@@ -21,10 +21,10 @@
 namespace sg::solve {
 
 struct WindowOptions {
-  Index lag = 0;           // poses; 0: any number
-  double distance = 0;     // metres; 0: any
-  elim::Wide budget = 0;   // of EC_BT; 0: none
-  bool smooth = false;     // keep the past for smooth_past
+  Index lag = 0;          // poses; 0: any number
+  double distance = 0;    // metres; 0: any
+  elim::Wide budget = 0;  // of EC_BT; 0: none
+  bool smooth = false;    // keep the past for smooth_past
 };
 
 struct Isam2Window {
@@ -32,13 +32,15 @@ struct Isam2Window {
   WindowOptions options;
   int min_obs = 1;
 
-  Index first = 0;                 // pose index of the oldest that is there
-  Index dropped = 0;               // edges that named what had left
-  std::vector<double> travelled;   // by pose index, of those that have entered: metres along the path
-  std::vector<bool> left;          // by vertex
-  std::vector<Index> last_seen;    // by vertex, no pose: pose index, -1 before it enters
-  graph::Lists<> edges_of;         // by vertex
-  std::vector<Index> incomplete;   // vertices that wait for observations, ascending
+  Index first = 0;     // pose index of the oldest that is there
+  Index constant = 0;  // edges that have entered and hold no variable
+  Index dropped = 0;   // edges that named what had left
+  std::vector<double>
+      travelled;                 // by pose index, of those that have entered: metres along the path
+  std::vector<bool> left;        // by vertex
+  std::vector<Index> last_seen;  // by vertex, no pose: pose index, -1 before it enters
+  graph::Lists<> edges_of;       // by vertex
+  std::vector<Index> incomplete;  // vertices that wait for observations, ascending
 };
 
 Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options& isam, int min_obs,
@@ -49,5 +51,8 @@ Isam2Window make_isam2_window(const factor::Problem&&, const Isam2Options&, int,
 // Step k, after 0 .. k - 1. Throws as replay_step does. The budget is kept unless replay.isam.tree.ec_bt is above it
 // afterwards: then the newest pose and what it sees are too much for it.
 Isam2Report window_step(Isam2Window& window, Index k);
+
+// Edges that are there.
+Index factors(const Isam2Window& window);
 
 }  // namespace sg::solve

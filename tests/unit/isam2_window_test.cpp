@@ -1,11 +1,12 @@
 // A smoother that lets the past go, against batch elimination of all that it has ever held.
+#include "lib/solve/isam2_window.h"
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_leave.h"
-#include "lib/solve/isam2_window.h"
 #include "lib/text/error.h"
 #include "tests/unit/common.h"
 
@@ -68,8 +69,8 @@ double difference(const sg::solve::Isam2& isam, bool past) {
     system.begin.push_back(static_cast<sg::Offset>(system.numbers.size()));
   }
   system.pattern = &pattern;
-  auto elimination = sg::solve::plan_elimination(
-      system, sg::order::elimination_order("colamd", pattern));
+  auto elimination =
+      sg::solve::plan_elimination(system, sg::order::elimination_order("colamd", pattern));
   REQUIRE(sg::solve::eliminate(elimination, system).empty());
   std::vector<double> step;
   sg::solve::back_substitute(elimination, step);
