@@ -1,4 +1,5 @@
 // sg-isam2: replay a graph step by step through an incremental smoother; a row a step.
+#include <cmath>
 #include <ctime>
 
 #include "cmd/common/command.h"
@@ -32,15 +33,15 @@ struct Options {
   bool colamd = false, chi2 = false, batch = false, sigma = false;
   solve::WindowOptions window;
   std::int64_t budget = 0;
-  double budget_ms = 0;
+  std::optional<double> budget_ms;
   std::string truth;
 };
 
 bool has_budget(const Options& options) {
-  return options.budget > 0 || options.budget_ms > 0;
+  return options.budget > 0 || options.budget_ms;
 }
 bool lets_go(const Options& options) {
-  return options.window.lag > 0 || options.window.distance > 0 || has_budget(options);
+  return options.window.lag > 0 || std::isfinite(options.window.distance) || has_budget(options);
 }
 
 // Processor time: what other programs on the machine do does not count, and a step of a millisecond
@@ -216,9 +217,9 @@ void replay(const cmd::Command& command, const std::string& file, const std::str
   cmd::stage("replay", steps);
   for (Index k = 0; k < steps; ++k) {
     cmd::progress(k);
-    if (options.budget_ms > 0)
+    if (options.budget_ms)
       window.options.budget =
-          static_cast<elim::Wide>(isam2::ec_of(calibration, options.budget_ms / 1e3));
+          static_cast<elim::Wide>(isam2::ec_of(calibration, *options.budget_ms / 1e3));
     const double start = processor_seconds();
     const solve::Isam2Report report = solve::window_step(window, k);
     const double seconds = processor_seconds() - start;

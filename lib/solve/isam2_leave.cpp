@@ -185,7 +185,7 @@ void leave_clique(Isam2& isam, Index c, bool keep, Isam2Report& report) {
 graph::Order order_after(std::string_view method, const graph::Pattern& pattern,
                          std::span<const Index> first, std::vector<Index> last) {
   const Index n = pattern.variables();
-  std::vector<Index> number(n, 0), rows_at(n, 0);
+  std::vector<Index> number(n, 0);
   for (Index j : first) number[j] = -1;
   graph::Pattern rest;
   graph::Order of_rest;
@@ -201,7 +201,6 @@ graph::Order order_after(std::string_view method, const graph::Pattern& pattern,
   for (Index r = 0; r < pattern.rows.size(); ++r) {
     Index one = -1;
     for (Index j : pattern.rows[r]) {
-      ++rows_at[j];
       if (number[j] >= 0) {
         rest.rows.items.push_back(number[j]);
       } else if (one < 0) {
@@ -235,9 +234,11 @@ graph::Order order_after(std::string_view method, const graph::Pattern& pattern,
     rest.rows.add(row);
   }
 
-  graph::Order order(first.begin(), first.end());
-  std::ranges::stable_sort(order, {}, [&](Index j) { return rows_at[j]; });
   order::OrderOptions options;
+  options.last = of_rest;
+  graph::Order order = order::elimination_order(method, pattern, options);
+  order.resize(first.size());
+  options.last.clear();
   for (Index j : last) options.last.push_back(number[j]);
   for (Index k : order::elimination_order(method, rest, options)) order.push_back(of_rest[k]);
   return order;

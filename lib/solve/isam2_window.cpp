@@ -112,15 +112,23 @@ void note_sightings(Isam2Window& window, const Step& step, Index k) {
   }
 }
 
+// What leaves with this step, as far as it is decided.
+struct Leaving {
+  std::vector<Index> variables;
+  std::vector<std::size_t> end{0};  // of every number of poses, in `variables`
+
+  Index poses() const { return static_cast<Index>(end.size()) - 1; }
+};
+
 // The oldest pose, and what no later one has seen.
-void oldest_leaves(Isam2Window& window, std::vector<Index>& leaving) {
+void oldest_leaves(Isam2Window& window, Leaving& leaving) {
   const Isam2Replay& replay = window.replay;
   const std::vector<Index>& variable = replay.problem->variables.vertex_variable;
   const auto leave = [&](Index v) {
     if (variable[v] < 0 || window.left[v]) return;
     window.left[v] = true;
     window.replay.isam.leaving[variable[v]] = true;
-    leaving.push_back(variable[v]);
+    leaving.variables.push_back(variable[v]);
   };
   const Index pose = replay.poses.pose[window.first];
   for (Index e : window.edges_of[pose]) {
@@ -130,33 +138,60 @@ void oldest_leaves(Isam2Window& window, std::vector<Index>& leaving) {
     }
   }
   leave(pose);
+  leaving.end.push_back(leaving.variables.size());
   ++window.first;
 }
 
-bool is_too_old(const Isam2Window& window, Index k) {
-  const WindowOptions& options = window.options;
-  if (options.lag > 0 && window.first <= k - options.lag) return true;
-  return options.distance > 0 &&
-         window.travelled[k] - window.travelled[window.first] > options.distance;
+void last_stays(Isam2Window& window, Leaving& leaving) {
+  leaving.end.pop_back();
+  for (std::size_t k = leaving.end.back(); k < leaving.variables.size(); ++k) {
+    const Index j = leaving.variables[k];
+    window.left[window.replay.problem->variables.variable_vertex[j]] = false;
+    window.replay.isam.leaving[j] = false;
+  }
+  leaving.variables.resize(leaving.end.back());
+  --window.first;
 }
 
-// Lets poses leave until the plan fits.
-CliqueTree plan(Isam2Window& window, const Entering& entering, Index k,
-                std::vector<Index>& leaving) {
-  Isam2& isam = window.replay.isam;
-  while (window.first < k && is_too_old(window, k)) oldest_leaves(window, leaving);
-  const auto planned = [&] {
-    mark_leaving(isam, leaving);
-    return plan_top(isam, entering.variables, entering.rows);
-  };
-  CliqueTree tree = planned();
+bool is_too_old(const Isam2Window& window, Index pose, Index k) {
+  const WindowOptions& options = window.options;
+  return (options.lag > 0 && pose <= k - options.lag) ||
+         window.travelled[k] - window.travelled[pose] > options.distance;
+}
+
+// The plan of the step when so many poses leave.
+CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index poses, Leaving& leaving) {
+  while (leaving.poses() < poses) oldest_leaves(window, leaving);
+  while (leaving.poses() > poses) last_stays(window, leaving);
+  mark_leaving(window.replay.isam, leaving.variables);
+  return plan_top(window.replay.isam, entering.variables, entering.rows);
+}
+
+// As few poses leave as bring the plan below the budget, `least` of them and `most` at most.
+CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index least, Index most,
+                       Leaving& leaving) {
+  CliqueTree plan = plan_with(window, entering, least, leaving);
   const elim::Wide budget = window.options.budget;
-  for (Index more = 1; budget > 0 && window.first < k && ec_after(isam, tree, leaving) > budget;
-       more *= 2) {
-    for (Index i = 0; i < more && window.first < k; ++i) oldest_leaves(window, leaving);
-    tree = planned();
+  if (budget == 0) return plan;
+  const auto fits = [&](Index poses) {
+    if (poses != leaving.poses()) plan = plan_with(window, entering, poses, leaving);
+    return ec_after(window.replay.isam, plan, leaving.variables) <= budget;
+  };
+  if (fits(least)) return plan;
+  Index too_few = least, enough = most;
+  for (Index more = 1; least + more < most; more *= 2) {
+    if (fits(least + more)) {
+      enough = least + more;
+      break;
+    }
+    too_few = least + more;
   }
-  return tree;
+  while (enough - too_few > 1 + (enough - least) / 8) {
+    const Index between = too_few + (enough - too_few) / 2;
+    (fits(between) ? enough : too_few) = between;
+  }
+  fits(enough);
+  return plan;
 }
 
 }  // namespace
@@ -183,11 +218,14 @@ Isam2Report window_step(Isam2Window& window, Index k) {
   for (Index e : step.edges) window.constant += pattern_of(isam).rows[e].empty() ? 1 : 0;
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
-  std::vector<Index> leaving;
-  redo_top(isam, entering.variables, entering.rows, plan(window, entering, k, leaving), report);
+  Index least = 0;
+  while (window.first + least < k && is_too_old(window, window.first + least, k)) ++least;
+  Leaving leaving;
+  const CliqueTree plan = plan_within(window, entering, least, k - window.first, leaving);
+  redo_top(isam, entering.variables, entering.rows, plan, report);
   if (report.undetermined.empty()) report.finite = solve_down(isam);
   if (report.undetermined.empty() && report.finite)
-    take_leave(isam, leaving, window.options.smooth, report);
+    take_leave(isam, leaving.variables, window.options.smooth, report);
   check_solved(window.replay, k, report);
   return report;
 }

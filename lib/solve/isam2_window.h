@@ -8,23 +8,25 @@
 //   distance  those that are farther back than D metres along the estimated path;
 //   budget    as few as bring EC_BT, the worst case of an update, to the budget or below. What it will be is known
 //             before anything is eliminated, from the symbolic elimination of what the update is to redo; while it is too
-//             much, one more pose leaves, then two, then four. So the window grows by a pose a step where there is room,
-//             and shrinks where there is none (Frey, Steiner, How, section VI, proposes this).
+//             much, one more pose leaves, then two, then four, and then as few of them as do. So the window grows by a
+//             pose a step where there is room, and shrinks where there is none (Frey, Steiner, How propose this).
 //
 // A landmark leaves with the last pose that saw it. Edges that name what has left are dropped and counted. A landmark
 // enters when min_obs observations from poses that are there have come together: where the window is shorter than that
 // takes, it waits. Constants never leave.
 #pragma once
 
+#include <limits>
+
 #include "lib/solve/isam2_replay.h"
 
 namespace sg::solve {
 
 struct WindowOptions {
-  Index lag = 0;          // poses; 0: any number
-  double distance = 0;    // metres; 0: any
-  elim::Wide budget = 0;  // of EC_BT; 0: none
-  bool smooth = false;    // keep the past for smooth_past
+  Index lag = 0;                                              // poses; 0: any number
+  double distance = std::numeric_limits<double>::infinity();  // metres
+  elim::Wide budget = 0;                                      // of EC_BT; 0: none
+  bool smooth = false;                                        // keep the past for smooth_past
 };
 
 struct Isam2Window {

@@ -138,7 +138,7 @@ TEST_CASE("what leaves goes on being known: window and past are batch's solution
       check_counts(isam);
       CHECK(difference(isam, false) < 1e-8);
       if (options.lag > 0) CHECK(k - window.first + 1 == std::min(k + 1, options.lag));
-      if (options.distance > 0)
+      if (options.lag == 0)
         CHECK((window.first == k ||
                window.travelled[k] - window.travelled[window.first] <= options.distance));
     }
