@@ -32,7 +32,8 @@ void gather_top(Isam2& isam, std::span<const Index> new_variables,
     const auto frontals = frontals_of(isam.tree, clique);
     const auto rows = rows_of(isam.tree, clique);
     work.variables.insert(work.variables.end(), frontals.begin(), frontals.end());
-    work.rows.insert(work.rows.end(), rows.begin(), rows.end());
+    std::ranges::copy_if(rows, std::back_inserter(work.rows),  // some may have been given back
+                         [&](Index r) { return isam.tree.row_clique[r] >= 0; });
     for (Index child = clique.first_child; child >= 0; child = isam.tree.cliques[child].next) {
       if (isam.tree.cliques[child].marked != isam.updates) work.orphans.push_back(child);
     }

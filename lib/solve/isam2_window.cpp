@@ -102,9 +102,11 @@ Step entering_at(Isam2Window& window, Index k) {
   return step;
 }
 
-void note_sightings(Isam2Window& window, const Step& step, Index k) {
+// Edges have entered.
+void note(Isam2Window& window, std::span<const Index> edges, Index k) {
   const graph::PoseIndex& poses = window.replay.poses;
-  for (Index e : step.edges) {
+  for (Index e : edges) {
+    window.constant += pattern_of(window.replay.isam).rows[e].empty() ? 1 : 0;
     Index last = -1;
     for (Index v : window.replay.problem->graph->edge(e)) last = std::max(last, poses.index[v]);
     for (Index v : window.replay.problem->graph->edge(e))
@@ -172,7 +174,7 @@ CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index leas
                        Leaving& leaving) {
   CliqueTree plan = plan_with(window, entering, least, leaving);
   const elim::Wide budget = window.options.budget;
-  if (budget == 0) return plan;
+  if (budget == 0 || window.options.spend != Spend::window) return plan;
   const auto fits = [&](Index poses) {
     if (poses != leaving.poses()) plan = plan_with(window, entering, poses, leaving);
     return ec_after(window.replay.isam, plan, leaving.variables) <= budget;
@@ -206,16 +208,17 @@ Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options
   window.left.assign(graph.vertices(), false);
   window.last_seen.assign(graph.vertices(), -1);
   window.edges_of = graph::transpose(graph.edge_vertices, graph.vertices());
+  window.admission = make_admission(window.replay);
   return window;
 }
 
-Isam2Report window_step(Isam2Window& window, Index k) {
+namespace {
+
+Isam2Report update(Isam2Window& window, const Step& step, Index k) {
   Isam2& isam = window.replay.isam;
-  const Step step = entering_at(window, k);
   const Entering entering = enter(window.replay, step.vertices, step.edges);
   measure(window, k);
-  note_sightings(window, step, k);
-  for (Index e : step.edges) window.constant += pattern_of(isam).rows[e].empty() ? 1 : 0;
+  note(window, step.edges, k);
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
   Index least = 0;
@@ -226,6 +229,23 @@ Isam2Report window_step(Isam2Window& window, Index k) {
   if (report.undetermined.empty()) report.finite = solve_down(isam);
   if (report.undetermined.empty() && report.finite)
     take_leave(isam, leaving.variables, window.options.smooth, report);
+  check_solved(window.replay, k, report);
+  return report;
+}
+
+}  // namespace
+
+Isam2Report window_step(Isam2Window& window, Index k) {
+  Step step = entering_at(window, k);
+  if (window.options.spend == Spend::window) return update(window, step, k);
+  const std::vector<Offer> offers =
+      take_offers(window.replay, k, window.min_obs, step.vertices, step.edges);
+  Isam2Report report = update(window, step, k);
+  const Admitted admitted =
+      admit(window.replay, window.admission, offers, window.options.budget, report);
+  note(window, admitted.edges, k);
+  for (Index v : admitted.refused_landmarks)
+    window.incomplete.insert(std::ranges::upper_bound(window.incomplete, v), v);
   check_solved(window.replay, k, report);
   return report;
 }

@@ -18,14 +18,22 @@
 
 #include <limits>
 
+#include "lib/solve/isam2_admission.h"
 #include "lib/solve/isam2_replay.h"
 
 namespace sg::solve {
+
+// What gives where a budget leaves no room.
+enum class Spend : std::uint8_t {
+  window,        // the oldest poses leave
+  measurements,  // closures and observations are refused or given back (isam2_admission.h)
+};
 
 struct WindowOptions {
   Index lag = 0;                                              // poses; 0: any number
   double distance = std::numeric_limits<double>::infinity();  // metres
   elim::Wide budget = 0;                                      // of EC_BT; 0: none
+  Spend spend = Spend::window;
   bool smooth = false;                                        // keep the past for smooth_past
 };
 
@@ -42,6 +50,7 @@ struct Isam2Window {
   std::vector<bool> left;        // by vertex
   std::vector<Index> last_seen;  // by vertex, no pose: pose index, -1 before it enters
   graph::Lists<> edges_of;       // by vertex
+  Admission admission;
   std::vector<Index> incomplete;  // vertices that wait for observations, ascending
 };
 
@@ -51,7 +60,8 @@ Isam2Window make_isam2_window(const factor::Problem&&, const Isam2Options&, int,
                               const WindowOptions&) = delete;
 
 // Step k, after 0 .. k - 1. Throws as replay_step does. The budget is kept unless replay.isam.tree.ec_bt is above it
-// afterwards: then the newest pose and what it sees are too much for it.
+// afterwards: then the newest pose and what it sees are too much for it, or, where measurements are what gives, all poses
+// by their odometry.
 Isam2Report window_step(Isam2Window& window, Index k);
 
 // Edges that are there.
