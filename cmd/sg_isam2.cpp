@@ -92,6 +92,7 @@ struct Row {
   }
 };
 
+constexpr const char* spending_measurements = "--spend measurements";
 constexpr const char* letting_go = "a lag or a budget";
 
 const std::vector<cmd::Column<Row>> columns{
@@ -121,6 +122,12 @@ const std::vector<cmd::Column<Row>> columns{
      letting_go},
     {"dropped", "Edges so far that named what had left",
      [](Row& row) { return row.window.dropped; }, letting_go},
+    {"offered", "Closures and observations so far",
+     [](Row& row) { return row.window.admission.offered; }, spending_measurements},
+    {"admitted", "Of these, those that came in",
+     [](Row& row) { return row.window.admission.admitted; }, spending_measurements},
+    {"returned", "Of these, those that were given back later",
+     [](Row& row) { return row.window.admission.returned; }, spending_measurements},
     {"budget", "Bound of ec_bt", [](Row& row) { return row.window.options.budget; }, "a budget"},
     {"violations", "Steps so far that ended above the budget", &Row::violations, "a budget"},
     {"error", "Metres from the truth of the newest pose", &Row::error, "--truth"},
@@ -156,6 +163,15 @@ void add_window(CLI::App& app, Options& options) {
   app.add_option("--budget", options.budget, "No step ends with ec_bt above EC: old poses leave")
       ->option_text("EC")
       ->transform(cmd::whole(1, std::int64_t{1} << 62));
+  app.add_option_function<std::string>(
+         "--spend",
+         [&options](const std::string& what) {
+           options.window.spend =
+               what == "window" ? solve::Spend::window : solve::Spend::measurements;
+         },
+         "What gives for the budget: old poses (default), or\nclosures and observations")
+      ->option_text("window|measurements")
+      ->check(cmd::one_of({"window", "measurements"}));
   app.add_option("--budget-ms", options.budget_ms,
                  "The same in milliseconds, by what steps have taken so far")
       ->option_text("X")
@@ -167,6 +183,7 @@ void add_window(CLI::App& app, Options& options) {
 
 void check_window(const CLI::App& app, const Options& options) {
   cmd::at_most_one(app, {{"--budget", "bounds the complexity"}, {"--budget-ms", "the time"}});
+  if (!has_budget(options)) cmd::refuse(app, {"--spend"}, "without a budget to spend");
   if (!lets_go(options))
     cmd::refuse(app, {"--smooth"}, "without --lag, --lag-distance or a budget: nothing leaves");
   if (options.output.path.empty())
@@ -295,10 +312,15 @@ void run(const cmd::Command& command, const Options& options) {
     cmd::refuse(command.app, {"-o"}, "with several files or orderings: one graph goes to one file");
   cmd::Output output("");
   const cmd::Given given{
-      {"several files", several},        {"several orderings", several_orderings},
-      {"--colamd", options.colamd},      {"--chi2", options.chi2},
-      {"--batch", options.batch},        {letting_go, lets_go(options)},
-      {"a budget", has_budget(options)}, {"--truth", !options.truth.empty()},
+      {"several files", several},
+      {"several orderings", several_orderings},
+      {"--colamd", options.colamd},
+      {"--chi2", options.chi2},
+      {"--batch", options.batch},
+      {letting_go, lets_go(options)},
+      {spending_measurements, options.window.spend == solve::Spend::measurements},
+      {"a budget", has_budget(options)},
+      {"--truth", !options.truth.empty()},
       {"--sigma", options.sigma}};
   cmd::Table table(options.table, columns, given, output);
   std::optional<score::Trajectory> truth;

@@ -96,7 +96,7 @@ std::vector<std::string> lines(const Summary& summary, Index dropped, bool budge
         summary.violations == 0
             ? "no step ended above the budget"
             : std::to_string(summary.violations) +
-                  " steps ended above the budget: it is less than the newest pose costs");
+                  " steps ended above the budget: it is less than what has to stay costs");
   return result;
 }
 

@@ -45,7 +45,7 @@ struct Bid {
   double cost, rate;
 };
 
-// Nothing where it does not determine its landmark.
+// Nothing where it does not determine its landmark, or tells nothing of poses.
 std::optional<Bid> bid_of(Isam2Replay& replay, Admission& admission, const Offer& offer) {
   Bid bid{&offer, -1, 0, std::numeric_limits<double>::max()};  // what is free is not weighed
   int dim = 0;
@@ -62,31 +62,54 @@ std::optional<Bid> bid_of(Isam2Replay& replay, Admission& admission, const Offer
     admission.place[bid.variable] = first;
   }
   const Measurement m = measurement(replay.isam, offer.edges, bid.variable);
-  if (m.variables.empty()) return {};
+  if (m.variables.empty() || m.jacobian.rows() == 0) return {};
   bid.cost = price(replay.isam, m.variables, dim);
-  if (bid.cost > 0) bid.rate = rate(gain(replay.isam, m, admission.place), bid.cost);
-  return bid;
+  if (bid.cost == 0) return bid;
+  const double gained = gain(replay.isam, m, admission.place);
+  bid.rate = rate(gained, bid.cost);
+  return gained > 0 ? std::optional(bid) : std::nullopt;
 }
 
-bool is_in(const Isam2& isam, Index e) {
-  return isam.tree.row_clique[e] >= 0;
+// Those of its edges that are in.
+std::vector<Index> edges_of(const Isam2& isam, const Admission::Held& held) {
+  std::vector<Index> edges;
+  const auto add = [&](Index e) {
+    if (isam.tree.row_clique[e] >= 0) edges.push_back(e);
+  };
+  if (held.edge >= 0) {
+    add(held.edge);
+  } else if (!isam.pinned[held.landmark]) {  // what is in a prior cannot be taken out of it
+    std::ranges::for_each(isam.rows_of[held.landmark], add);
+  }
+  return edges;
 }
 
 // What holding this edge is worth now.
 double rate_now(Isam2Replay& replay, const Admission& admission, const Admission::Held& held) {
-  const Measurement m = measurement(replay.isam, std::span(&held.edge, 1));
+  const std::vector<Index> edges = edges_of(replay.isam, held);
+  const Measurement m = measurement(replay.isam, edges, held.landmark);
+  if (m.variables.empty() || m.jacobian.rows() == 0) return 0;
   return rate(gain(replay.isam, m, admission.place, true), held.cost);
 }
 
-// The held edge of the lowest rate, if that is below `limit`; it is no longer held.
+// What has the lowest rate by the last look; it is no longer held.
+std::optional<Admission::Held> lowest(const Isam2& isam, Admission& admission) {
+  while (!admission.held.empty()) {
+    const Admission::Held held = pop(admission);
+    if (!edges_of(isam, held).empty()) return held;
+  }
+  return {};
+}
+
+// The same by what it is worth now, if that is below `limit`.
 std::optional<Admission::Held> lowest(Isam2Replay& replay, Admission& admission, double limit) {
   for (int look = 0; look < looks && !admission.held.empty();) {
     Admission::Held held = pop(admission);
-    if (!is_in(replay.isam, held.edge)) continue;  // has left
+    if (edges_of(replay.isam, held).empty()) continue;  // has left
     ++look;
     if (held.rate < limit) held.rate = rate_now(replay, admission, held);
-    const bool low = held.rate < limit &&
-                     (admission.held.empty() || held.rate <= admission.held.front().rate);
+    const bool low =
+        held.rate < limit && (admission.held.empty() || held.rate <= admission.held.front().rate);
     if (low) return held;
     const bool all_above = held.rate >= limit;
     push(admission, held);
@@ -126,10 +149,17 @@ Choice choose(Isam2Replay& replay, Admission& admission, std::vector<Bid> bids, 
   return choice;
 }
 
-void give_back(Isam2& isam, Index e) {
-  mark_to_root(isam, isam.tree.row_clique[e]);
-  isam.tree.row_clique[e] = -1;
-  --isam.rows;
+void give_back(Isam2& isam, Admission& admission, const Admission::Held& held) {
+  for (Index e : edges_of(isam, held)) {
+    ++admission.returned;
+    mark_to_root(isam, isam.tree.row_clique[e]);
+    isam.tree.row_clique[e] = -1;
+    --isam.rows;
+  }
+  if (held.landmark < 0) return;
+  mark_to_root(isam, isam.tree.variable_clique[held.landmark]);
+  isam.tree.variable_clique[held.landmark] = -1;
+  --isam.variables;
 }
 
 Entering entering(const Choice& choice) {
@@ -141,12 +171,24 @@ Entering entering(const Choice& choice) {
   return result;
 }
 
+// What names a landmark that has been given back stays out.
+void drop_homeless(const Isam2& isam, Choice& choice) {
+  std::erase_if(choice.in, [&](const Bid& bid) {
+    return std::ranges::any_of(bid.offer->edges, [&](Index e) {
+      return std::ranges::any_of(pattern_of(isam).rows[e], [&](Index j) {
+        return j != bid.variable && isam.tree.variable_clique[j] < 0;
+      });
+    });
+  });
+}
+
 // Carries the choice out; where the tree would cost more than was thought, less of it comes in and more goes out.
 void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::Wide budget,
                Isam2Report& report) {
   Isam2& isam = replay.isam;
   report.relinearized += begin_update(isam, entering(choice).rows);
-  for (const Admission::Held& held : choice.out) give_back(isam, held.edge);
+  for (const Admission::Held& held : choice.out) give_back(isam, admission, held);
+  drop_homeless(isam, choice);
   Entering in = entering(choice);
   CliqueTree plan = plan_top(isam, in.variables, in.rows);
   while (ec_after(isam, plan, {}) > budget) {
@@ -154,10 +196,10 @@ void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::
       choice.in.resize(choice.in.size() / 2);
       in = entering(choice);
     } else {
-      const auto held = lowest(replay, admission, std::numeric_limits<double>::infinity());
+      const auto held = lowest(isam, admission);
       if (!held) break;
       choice.out.push_back(*held);
-      give_back(isam, held->edge);
+      give_back(isam, admission, *held);
     }
     plan = plan_top(isam, in.variables, in.rows);
   }
@@ -242,14 +284,16 @@ Admitted admit(Isam2Replay& replay, Admission& admission, std::span<const Offer>
   for (const Bid& bid : choice.in) {
     const std::vector<Index>& edges = bid.offer->edges;
     result.edges.insert(result.edges.end(), edges.begin(), edges.end());
-    if (bid.variable < 0) push(admission, {bid.rate, bid.cost, edges.front()});
+    push(admission, {bid.rate, bid.cost, bid.variable < 0 ? edges.front() : -1, bid.variable});
+  }
+  for (const Admission::Held& held : choice.out) {
+    if (held.landmark >= 0)
+      result.returned_landmarks.push_back(replay.problem->variables.variable_vertex[held.landmark]);
   }
   admission.admitted += static_cast<Index>(result.edges.size());
-  admission.returned += static_cast<Index>(choice.out.size());
   for (const Offer& offer : offers) {
-    const bool refused =
-        offer.vertex >= 0 &&
-        replay.isam.tree.variable_clique[variable_of(replay, offer.vertex)] < 0;
+    const bool refused = offer.vertex >= 0 &&
+                         replay.isam.tree.variable_clique[variable_of(replay, offer.vertex)] < 0;
     if (!refused) continue;
     replay.placed[offer.vertex] = false;
     result.refused_landmarks.push_back(offer.vertex);

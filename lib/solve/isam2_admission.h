@@ -5,7 +5,8 @@
 // best set seen so far, as near as greedy gets.
 //
 // A new landmark is one offer with the observations that it enters by: the first, the last and one between, or min_obs
-// of them. It may be offered again with later ones. Once it is in, it stays, and its further observations are offers.
+// of them; refused, it is offered again with its next. What tells of no pose, as the only observation of a landmark does,
+// is refused. Once a landmark is in, its further observations are offers; it is given back with all of them, for good.
 //
 // Source: Frey, Steiner, How, Complexity analysis and efficient measurement selection primitives (2019), conclusions.
 #pragma once
@@ -24,9 +25,10 @@ struct Offer {
 
 struct Admission {
   struct Held {
-    double rate;  // gain per rise of EC_BT, when it was last looked at
-    double cost;  // that rise
-    Index edge;
+    double rate;     // gain per rise of EC_BT, when it was last looked at
+    double cost;     // that rise
+    Index edge;      // -1:
+    Index landmark;  // the variable, with all its edges
   };
   std::vector<Held> held;    // a heap, the lowest rate on top; edges that have left since included
   std::vector<Index> place;  // by variable (isam2_admit.h)
@@ -45,7 +47,7 @@ std::vector<Offer> take_offers(const Isam2Replay& replay, Index k, int min_obs,
 // After the step's update without them: admits and gives back, in an update of its own where there is anything to do.
 // Adds to the report; returns the offers that were admitted, and the landmarks that were not.
 struct Admitted {
-  std::vector<Index> edges, refused_landmarks;
+  std::vector<Index> edges, refused_landmarks, returned_landmarks;  // vertices
 };
 Admitted admit(Isam2Replay& replay, Admission& admission, std::span<const Offer> offers,
                elim::Wide budget, Isam2Report& report);

@@ -22,7 +22,8 @@ namespace sg::solve {
 // Some rows as one measurement of variables that are there.
 struct Measurement {
   std::vector<Index> variables;
-  Eigen::MatrixXd jacobian;  // whitened, at the linearization points; columns of the variables one after the other
+  Eigen::MatrixXd
+      jacobian;  // whitened, at the linearization points; columns of the variables one after the other
 };
 
 // Rows whose variables are there but for one at most, which is eliminated from them: what they say of the others. Nothing

@@ -246,6 +246,7 @@ Isam2Report window_step(Isam2Window& window, Index k) {
   note(window, admitted.edges, k);
   for (Index v : admitted.refused_landmarks)
     window.incomplete.insert(std::ranges::upper_bound(window.incomplete, v), v);
+  for (Index v : admitted.returned_landmarks) window.left[v] = true;
   check_solved(window.replay, k, report);
   return report;
 }

@@ -34,7 +34,7 @@ struct WindowOptions {
   double distance = std::numeric_limits<double>::infinity();  // metres
   elim::Wide budget = 0;                                      // of EC_BT; 0: none
   Spend spend = Spend::window;
-  bool smooth = false;                                        // keep the past for smooth_past
+  bool smooth = false;  // keep the past for smooth_past
 };
 
 struct Isam2Window {

@@ -2,10 +2,13 @@
 #include "lib/solve/isam2_window.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "lib/solve/eliminate.h"
+#include "lib/solve/isam2_admit.h"
+#include "lib/solve/isam2_covariance.h"
 #include "lib/solve/isam2_leave.h"
 #include "lib/text/error.h"
 #include "tests/unit/common.h"
@@ -47,11 +50,13 @@ double difference(const sg::solve::Isam2& isam, bool past) {
   const sg::factor::Problem& problem = *isam.problem;
   const sg::graph::Pattern& whole = problem.variables.pattern;
   std::vector<sg::Index> number(whole.variables(), -1), variable;
+  // Rows may have been linearized and refused, or given back.
+  const bool nothing_left = std::ranges::none_of(isam.pinned, std::identity());
   sg::graph::Pattern pattern;
   sg::factor::LinearSystem system;
   system.begin.assign(1, 0);
   for (sg::Index r = 0; r < whole.rows.size(); ++r) {
-    if (isam.row_update[r] < 0) continue;
+    if (isam.row_update[r] < 0 || (nothing_left && isam.tree.row_clique[r] < 0)) continue;
     for (const sg::Index j : whole.rows[r]) {
       if (number[j] < 0) {
         number[j] = pattern.variables();
@@ -208,4 +213,98 @@ TEST_CASE("the memory of a window is bounded by it", "[isam2]") {
   CHECK(tree.number_pool.end() < 2 * numbers);
   CHECK(tree.list_pool.end() < 2 * lists);
   CHECK(tree.cliques.size() < 2 * cliques);
+}
+
+TEST_CASE("what is admitted is solved, and the budget is kept", "[isam2]") {
+  Random random(5);
+  sg::Index returned = 0, refused = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const sg::Graph graph = graph_of(walk(random, 60, draw(random, 10, 50)));
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    sg::solve::WindowOptions options{.budget = 12000u << draw(random, 0, 2),
+                                     .spend = sg::solve::Spend::measurements};
+    if (trial % 4 == 3) options.lag = 30;
+    auto window =
+        sg::solve::make_isam2_window(problem, exact(trial), 1 + trial % 2, false, options);
+    const sg::solve::Isam2& isam = window.replay.isam;
+    for (sg::Index k = 0; k < window.replay.steps.steps; ++k) {
+      sg::solve::window_step(window, k);
+      check_counts(isam);
+      if (options.lag > 0) continue;
+      CHECK(isam.tree.ec_bt <= options.budget);
+      CHECK(difference(isam, false) < 1e-8);
+    }
+    if (options.lag == 0) CHECK(window.first == 0);
+    returned += window.admission.returned;
+    refused += window.admission.offered - window.admission.admitted;
+  }
+  CHECK(returned > 10);
+  CHECK(refused > 10);
+}
+
+TEST_CASE("a budget without end admits all that is offered", "[isam2]") {
+  Random random(6);
+  for (int trial = 0; trial < 4; ++trial) {
+    const sg::Graph graph = graph_of(walk(random, 40, 30));
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    auto window =
+        sg::solve::make_isam2_window(problem, exact(3 * trial), 2, false,
+                                     {.budget = 1u << 30, .spend = sg::solve::Spend::measurements});
+    auto plain = sg::solve::make_isam2_replay(problem, exact(3 * trial), 2, false);
+    for (sg::Index k = 0; k < plain.steps.steps; ++k) {
+      sg::solve::replay_step(plain, k);
+      sg::solve::window_step(window, k);
+    }
+    CHECK(window.admission.admitted == window.admission.offered);
+    CHECK(window.admission.returned == 0);
+    CHECK(window.replay.isam.rows == plain.isam.rows);
+    CHECK(difference(window.replay.isam, false) < 1e-8);
+  }
+}
+
+TEST_CASE("gain is by how much variances fall, and what giving back would lose", "[isam2]") {
+  Random random(7);
+  for (int trial = 0; trial < 6; ++trial) {
+    const sg::Graph graph = graph_of(walk(random, 20, 12));
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    sg::solve::Isam2Options options = exact(0);
+    options.relinearize_skip = 0;
+    auto replay = sg::solve::make_isam2_replay(problem, options, 1, false);
+    // All but the last row that is no odometry.
+    sg::Index last = -1;
+    for (sg::Index e = 0; e < graph.edges(); ++e) {
+      const auto ends = graph.edge(e);
+      if (replay.poses.index[ends[0]] >= 0 && replay.poses.index[ends[1]] >= 0 &&
+          std::abs(replay.poses.index[ends[0]] - replay.poses.index[ends[1]]) > 2)
+        last = e;
+    }
+    if (last < 0) continue;
+    for (sg::Index k = 0; k < replay.steps.steps; ++k) {
+      std::vector<sg::Index> edges(replay.edges[k].begin(), replay.edges[k].end());
+      std::erase(edges, last);
+      const auto in = sg::solve::enter(replay, replay.vertices[k], edges);
+      sg::solve::check_solved(replay, k, sg::solve::update(replay.isam, in.variables, in.rows));
+    }
+    sg::solve::Isam2& isam = replay.isam;
+    const auto admission = sg::solve::make_admission(replay);
+    const auto row = problem.variables.pattern.rows[last];
+    const auto m = sg::solve::measurement(isam, std::array{last});
+    // By the definition: covariances of the two ends before and after.
+    const auto variance = [&](sg::Index j) {
+      return sg::solve::covariance(isam, j).topLeftCorner(2, 2).trace();
+    };
+    const double u = variance(row[0]), v = variance(row[1]);
+    const double told = sg::solve::gain(isam, m, admission.place);
+    const bool together = sg::solve::price(isam, row) == 0;
+    const auto before = isam.tree.ec_bt;
+    const double most = sg::solve::price(isam, row);
+    sg::solve::update(isam, {}, std::array{last});
+    const double fall_u = u - variance(row[0]), fall_v = v - variance(row[1]);
+    const double poses = std::abs(admission.place[row[0]] - admission.place[row[1]]);
+    const auto later = admission.place[row[0]] > admission.place[row[1]] ? fall_u : fall_v;
+    CHECK(told == Approx(later + poses * (fall_u + fall_v) / 2).epsilon(1e-6));
+    CHECK(sg::solve::gain(isam, m, admission.place, true) == Approx(told).epsilon(1e-6));
+    CHECK(most >= 0);
+    if (together) CHECK(isam.tree.ec_bt <= 2 * before);
+  }
 }

@@ -81,6 +81,28 @@ corridor() {
   grep "steps ended above the budget" <<< "$stderr"
 }
 
+@test "--spend measurements: all poses stay, the budget is kept, and better ones come for worse" {
+  sg-gen manhattan -n 400 -o world.g2o
+  sg-isam2 -q --budget 60000 --spend measurements -f ec_bt,window,offered,admitted,returned,violations --no-header world.g2o > rows.tsv
+  [ "$(cut -f 1 rows.tsv | sort -n | tail -n 1)" -le 60000 ]
+  [ "$(cut -f 1 rows.tsv | sort -n | tail -n 1)" -gt 50000 ]
+  read -r _ window offered admitted returned violations < <(tail -n 1 rows.tsv)
+  [ "$window" = 400 ]
+  [ "$offered" -gt "$admitted" ]
+  [ "$admitted" -gt "$returned" ]
+  [ "$returned" -gt 0 ]
+  [ "$violations" = 0 ]
+}
+
+@test "a budget without end admits every measurement, and ends where plain iSAM2 does" {
+  sg-gen manhattan -n 150 -o world.g2o
+  sg-isam2 -q --budget 1e15 --spend measurements --chi2 -f chi2,offered,admitted,returned --no-header world.g2o | tail -n 1 > all.tsv
+  read -r chi2 offered admitted returned < all.tsv
+  [ "$offered" = "$admitted" ]
+  [ "$returned" = 0 ]
+  near "$chi2" "$(sg-isam2 -f chi2 --no-header world.g2o | tail -n 1)" 0.01
+}
+
 @test "--budget-ms: an EC that follows what steps take" {
   sg-gen manhattan -n 200 -o world.g2o
   sg-isam2 -q --budget-ms 1000 -f window,budget --no-header world.g2o > rows.tsv
@@ -116,6 +138,8 @@ corridor() {
   run -2 sg-isam2 --lag 0 "$TESTDATA/walk.g2o"
   fails 2 "sg-isam2: --budget bounds the complexity, --budget-ms the time: give one of them (see sg-isam2 --help)" \
     sg-isam2 --budget 5 --budget-ms 5 "$TESTDATA/walk.g2o"
+  fails 2 "sg-isam2: --spend has no effect without a budget to spend (see sg-isam2 --help)" \
+    sg-isam2 --spend window "$TESTDATA/walk.g2o"
   fails 2 "sg-isam2: --smooth has no effect without --lag, --lag-distance or a budget: nothing leaves (see sg-isam2 --help)" \
     sg-isam2 --smooth -o x.g2o "$TESTDATA/walk.g2o"
   fails 2 "sg-isam2: --smooth has no effect without -o, which writes what is smoothed (see sg-isam2 --help)" \
