@@ -221,7 +221,7 @@ TEST_CASE("what is admitted is solved, and the budget is kept", "[isam2]") {
   for (int trial = 0; trial < 8; ++trial) {
     const sg::Graph graph = graph_of(walk(random, 60, draw(random, 10, 50)));
     const sg::factor::Problem problem = sg::factor::make_problem(graph);
-    sg::solve::WindowOptions options{.budget = 12000u << draw(random, 0, 2),
+    sg::solve::WindowOptions options{.budget = 16000u << draw(random, 0, 2),
                                      .spend = sg::solve::Spend::measurements};
     if (trial % 4 == 3) options.lag = 30;
     auto window =
