@@ -20,7 +20,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check python mutants install uninstall deb bench fuzz tsan paper orderings outliers starts marginalize lint format clean
+.PHONY: help deps build demo check faults python mutants install uninstall deb bench fuzz tsan paper orderings outliers starts marginalize lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -61,6 +61,9 @@ check: build/packages/build build/packages/test ## build everything, and run eve
 	@$(call configure,-DSGTOOLS_TESTS=ON -DSGTOOLS_PYTHON=ON)
 	@$(call build,all)
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+faults: build ## kill every command at a random moment, take its memory, its disk or its input away (FAULTS=500)
+	@tests/faults $(BIN) $(or $(FAULTS),500)
 
 python: build/packages/build build/packages/python ## build the Python package, into build/release/python
 	@$(call configure,$(commands_alone) -DSGTOOLS_PYTHON=ON)

@@ -1,5 +1,6 @@
 #include "cmd/common/interrupt.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -38,13 +39,21 @@ void put(int descriptor, std::string_view bytes) {
 
 }  // namespace
 
+bool take_name(const Unfinished& output) {
+  // A link replaces nothing, a renaming does.
+  if (output.nameless[0] != '\0' && ::linkat(AT_FDCWD, output.nameless.data(), AT_FDCWD,
+                                             output.temporary.data(), AT_SYMLINK_FOLLOW) != 0)
+    return false;
+  return std::rename(output.temporary.data(), output.path.data()) == 0;
+}
+
 void settle(const Unfinished& output) {
   put(output.descriptor, {output.rows, output.finished});
   if (output.partial) put(output.descriptor, "\nINTERRUPTED\n");
   if (output.temporary[0] == '\0') return;
   if (output.kept) {
-    std::rename(output.temporary.data(), output.path.data());
-  } else {
+    take_name(output);
+  } else if (output.nameless[0] == '\0') {
     ::unlink(output.temporary.data());
   }
 }
@@ -77,7 +86,7 @@ void on_interruption(int signal) {
 
 void on_shorter_input(int /*signal*/) {
   for (const Unfinished& output : outputs) {
-    if (output.taken) ::unlink(output.temporary.data());
+    if (output.taken && output.nameless[0] == '\0') ::unlink(output.temporary.data());
   }
   erase_progress();
   for (const std::string_view part :
@@ -129,7 +138,7 @@ Unfinished& take_unfinished() {
     if (output.taken) continue;
     output.writing = output.partial = output.kept = false;
     output.finished = 0;
-    output.temporary[0] = output.path[0] = '\0';
+    output.temporary[0] = output.path[0] = output.nameless[0] = '\0';
     output.taken = true;
     return output;
   }

@@ -1,6 +1,7 @@
 // What an interruption (SIGINT, SIGTERM, SIGHUP) does to a command.
 //
-// It ends the command at once: rows that are finished go out, temporary files are removed. From finish_first() on, the
+// It ends the command at once: rows that are finished go out, temporary files are removed (where the file system can, they
+// have no name until they are whole, so that nothing is left of them even after SIGKILL). From finish_first() on, the
 // first one only asks: what is at work looks at interrupted(), stops with the best so far, and the output is written
 // whole; a second one ends at once.
 //
@@ -38,10 +39,14 @@ struct Unfinished {
   const char* rows = nullptr;
   std::atomic<std::size_t> finished = 0;       // bytes of `rows` that are whole rows
   std::array<char, 4096> temporary{}, path{};  // empty for standard output
+  std::array<char, 32>
+      nameless{};  // where /proc shows a file that has no name yet, not even the temporary one
 };
 // One of a few places: no command writes more outputs at a time.
 Unfinished& take_unfinished();
 // Passes its rows on; where it is half a text, a line that says so; takes its temporary file away, or into its name.
 void settle(const Unfinished& output);
+// The temporary file takes its name; false, and errno, where it cannot.
+bool take_name(const Unfinished& output);
 
 }  // namespace sg::cmd

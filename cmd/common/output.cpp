@@ -24,6 +24,25 @@ mode_t new_file_mode() {
   return 0666 & ~mask;
 }
 
+// A file without a name in the folder of `temporary`, which it will have for a moment; -1 where the file system has none.
+int open_nameless(Unfinished& output) {
+  const std::string folder = std::filesystem::path(output.temporary.data()).parent_path().string();
+  const int descriptor =
+      ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (descriptor < 0) return -1;
+  std::snprintf(output.nameless.data(), output.nameless.size(), "/proc/self/fd/%d", descriptor);
+  const auto last = std::strlen(output.temporary.data()) - 6;
+  std::snprintf(output.temporary.data() + last, 7, "%06d", static_cast<int>(::getpid() % 1000000));
+  struct stat status {};
+  const bool usable = ::stat(output.nameless.data(), &status) == 0 &&
+                      ::lstat(output.temporary.data(), &status) != 0;
+  if (usable) return descriptor;
+  ::close(descriptor);
+  output.nameless[0] = '\0';
+  std::memset(output.temporary.data() + last, 'X', 6);
+  return -1;
+}
+
 }  // namespace
 
 Output::Output(std::string path) : path_(std::move(path)), state_(take_unfinished()) {
@@ -63,7 +82,8 @@ void Output::open() {
   state_.path[path_.size()] = '\0';
   temporary.copy(state_.temporary.data(), temporary.size());
   state_.temporary[temporary.size()] = '\0';
-  descriptor_ = ::mkstemp(state_.temporary.data());
+  descriptor_ = open_nameless(state_);
+  if (descriptor_ < 0) descriptor_ = ::mkstemp(state_.temporary.data());
   if (descriptor_ < 0) fail("create");
   ::fchmod(descriptor_, exists ? status.st_mode & 07777 : new_file_mode());
 }
@@ -134,11 +154,11 @@ void Output::commit() {
   note((path_.empty() ? "<stdout>" : path_) + ": " + std::to_string(written_) + " bytes");
   state_.partial = false;
   if (path_.empty()) return;
-  const int closed = ::close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) fail("write");
+  // What is written at last may show here only (NFS); a file without a name lives while it is open.
+  const int again = ::dup(descriptor_);
+  if (again < 0 || ::close(again) != 0) fail("write");
   if (state_.temporary[0] == '\0') return;
-  if (::rename(state_.temporary.data(), path_.c_str()) != 0) fail("rename the temporary file to");
+  if (!take_name(state_)) fail("rename the temporary file to");
   state_.temporary[0] = '\0';
 }
 
