@@ -203,6 +203,7 @@ Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options
   Isam2Window window;
   window.replay = make_isam2_replay(problem, isam, min_obs, start_from_file);
   window.options = options;
+  window.renewal = {.factor = options.renew, .budget = options.budget};
   window.min_obs = min_obs;
   const Graph& graph = *problem.graph;
   window.left.assign(graph.vertices(), false);
@@ -221,6 +222,10 @@ Isam2Report update(Isam2Window& window, const Step& step, Index k) {
   note(window, step.edges, k);
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
+  if (is_worn(isam, window.renewal)) {
+    mark_all(isam);
+    ++window.renewed;
+  }
   Index least = 0;
   while (window.first + least < k && is_too_old(window, window.first + least, k)) ++least;
   Leaving leaving;

@@ -19,6 +19,7 @@
 #include <limits>
 
 #include "lib/solve/isam2_admission.h"
+#include "lib/solve/isam2_renew.h"
 #include "lib/solve/isam2_replay.h"
 
 namespace sg::solve {
@@ -35,6 +36,7 @@ struct WindowOptions {
   elim::Wide budget = 0;                                      // of EC_BT; 0: none
   Spend spend = Spend::window;
   bool smooth = false;  // keep the past for smooth_past
+  double renew = 0;     // order the whole anew beyond this factor (isam2_renew.h); 0: never
 };
 
 struct Isam2Window {
@@ -51,6 +53,8 @@ struct Isam2Window {
   std::vector<Index> last_seen;  // by vertex, no pose: pose index, -1 before it enters
   graph::Lists<> edges_of;       // by vertex
   Admission admission;
+  Renewal renewal;
+  Index renewed = 0;              // steps that ordered the whole anew
   std::vector<Index> incomplete;  // vertices that wait for observations, ascending
 };
 
