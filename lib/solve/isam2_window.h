@@ -11,7 +11,8 @@
 //             much, one more pose leaves, then two, then four, and then as few of them as do. So the window grows by a
 //             pose a step where there is room, and shrinks where there is none (Frey, Steiner, How propose this).
 //
-// A landmark leaves with the last pose that saw it. Edges that name what has left are dropped and counted. A landmark
+// A landmark leaves with the last pose that saw it, or before, where the newest pose with all of its landmarks is above
+// the budget. Edges that name what has left are dropped and counted. A landmark
 // enters when min_obs observations from poses that are there have come together: where the window is shorter than that
 // takes, it waits. Constants never leave.
 #pragma once
