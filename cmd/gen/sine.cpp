@@ -17,9 +17,8 @@ Maker add_sine(CLI::App& app) {
   add_length(app, "--wavelength", world->wavelength, "Of the path, metres");
   add_count(app, "-l,--landmarks", world->landmarks, 0, "Landmarks in the slab; 0: by density");
   add_length(app, "--density", world->density, "Landmarks a square metre of the slab");
-  app.add_option("--density-profile", world->profile,
-                 "Density along the path, as factors at equal distances")
-      ->option_text("X,...")
+  app.add_option("--density-profile", world->profile, "Factors of it along the path, evenly apart")
+      ->option_text("R,...")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(cmd::number(0));
