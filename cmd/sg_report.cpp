@@ -36,7 +36,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->option_text("N")
       ->check(cmd::above_zero());
   app.add_option("-m,--method", options.methods.names,
-                 "Orderings to compare (default: the file's own, colamd,\namd, metis, scotch, wmf)")
+                 "Orderings to compare (default: the file's own,\ncolamd, amd, metis, scotch, wmf)")
       ->option_text("METHOD,...")
       ->delimiter(',')
       ->check(cmd::suggests(text::names_of(order::orderings())))
