@@ -13,12 +13,6 @@ double processor_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TimedStep timed_step(solve::Isam2Replay& replay, Index k) {
-  const double start = processor_seconds();
-  const solve::Isam2Report report = solve::replay_step(replay, k);
-  return {report, processor_seconds() - start};
-}
-
 bool hold_at_first(factor::Problem& problem) {
   if (problem.held >= 0 || factor::holds_first_pose(problem, factor::start_values(problem)))
     return false;
