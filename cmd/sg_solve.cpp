@@ -16,6 +16,7 @@
 #include "cmd/common/same_file.h"
 #include "cmd/common/table.h"
 #include "cmd/solve/certificate.h"
+#include "cmd/solve/plan.h"
 #include "cmd/solve/residuals.h"
 #include "cmd/solve/robust.h"
 #include "cmd/solve/timing.h"
@@ -178,16 +179,6 @@ void print_certificate(const cmd::Command& command, const Options& options,
   output.commit();
 }
 
-solve::LinearSolver planned(const Options& options, const factor::Problem& problem,
-                            const factor::LinearSystem& system) {
-  graph::GraphPattern variables = problem.variables;
-  graph::Lists<>& rows = variables.pattern.rows;
-  if (problem.held >= 0) rows.begin.pop_back();  // the order is that without the gauge's row
-  rows.items.resize(rows.begin.back());
-  const graph::Order order = cmd::named_order(options.method, *problem.graph, variables).order;
-  return solve::find_backend(options.backend).make(system, order, options.threads);
-}
-
 void warn_of_scale(const cmd::Command& command) {
   cmd::warn(command,
             "nothing fixes the scale: it stays near the start's (FIX a second pose, or add an edge "
@@ -225,7 +216,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   if (command.verbose) tell_starts(starts);
   const Graph& graph = *problem.graph;
   const auto plan = [&](const factor::Problem& part, const factor::LinearSystem& system) {
-    return planned(options, part, system);
+    return solve::planned({options.method, options.backend, options.threads}, part, system);
   };
   cmd::stage("order");
   factor::LinearSystem system;
@@ -268,7 +259,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
     print_residuals(options, options.weights, problem, values, batch.loss);
   }
   cmd::write_filtered(command, options.output, graph,
-                      cmd::estimate_changes(problem, values, cmd::moved(problem)));
+                      cmd::estimate_changes(problem, values, solve::moved(problem)));
   tell(command, result, cmd::seconds_since(begin));
 }
 

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "cmd/common/estimates.h"
+#include "cmd/solve/plan.h"
 #include "formats/applied.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
@@ -51,7 +52,7 @@ Solution solve(const Graph& graph, const std::string& start, bool gauss_newton,
                                     " iterations, chi-square " + text::format_number(result.chi2) +
                                     "; iterations=N returns what N of them reach");
     return Solution{shared(formats::applied(
-                        graph, cmd::estimate_changes(problem, values, cmd::moved(problem)), {})),
+                        graph, cmd::estimate_changes(problem, values, solve::moved(problem)), {})),
                     result};
   });
 }

@@ -30,14 +30,6 @@ formats::Edit vertex_lines(const factor::Problem& problem, const factor::Values&
   return edit;
 }
 
-std::vector<bool> moved(const factor::Problem& problem) {
-  std::vector<bool> result(problem.graph->vertices(), false);
-  for (std::size_t j = 0; j < problem.variables.variable_vertex.size(); ++j) {
-    result[problem.variables.variable_vertex[j]] = !factor::is_held(problem, static_cast<Index>(j));
-  }
-  return result;
-}
-
 formats::Changes estimate_changes(const factor::Problem& problem, const factor::Values& values,
                                   const std::vector<bool>& moved) {
   const Graph& graph = *problem.graph;

@@ -13,9 +13,6 @@ namespace sg::cmd {
 formats::Edit vertex_lines(const factor::Problem& problem, const factor::Values& values,
                            std::span<const Index> vertices);
 
-// Which vertices' lines an optimization rewrites: all but the constants.
-std::vector<bool> moved(const factor::Problem& problem);
-
 // The changes that give every vertex of `moved` its estimate: the numbers of its VERTEX line, or,
 // in a file without VERTEX lines, a line for every vertex before the first edge. What stands behind
 // the numbers, and everything else, stays as it is.

@@ -19,9 +19,6 @@
 
 namespace sg::solve {
 
-// Where nobody says how many: beyond these, an optimization has failed.
-constexpr int most_iterations = 1000;
-
 struct Candidate {
   std::string_view name;  // of start.h's table
   factor::Values values;
