@@ -1,8 +1,9 @@
 // Pruning: what may go, and the policies that choose.
-#include <cmath>
 #include <optional>
 
 #include "cmd/common/prune_options.h"
+#include "cmd/ecgreedy/budget.h"
+#include "cmd/kf/changes.h"
 #include "formats/applied.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
@@ -79,15 +80,15 @@ SharedGraph tgreedy(const Graph& graph, std::size_t keep, const std::string& wei
   });
 }
 
-SharedGraph ecgreedy(const Graph& graph, std::optional<double> ec, std::optional<double> sigma,
-                     std::optional<Index> keep, const std::string& method, const std::string& kind,
-                     Index min_obs, std::uint64_t seed) {
+SharedGraph ec_greedy(const Graph& graph, std::optional<double> ec, std::optional<double> sigma,
+                      std::optional<Index> keep, const std::string& method, const std::string& kind,
+                      Index min_obs, std::uint64_t seed) {
   if (ec.has_value() + sigma.has_value() + keep.has_value() != 1)
     throw text::usage_error("how much stays? One of ec, sigma and keep");
   return pruned(graph, kind, min_obs, [&](const Subject& from) {
     prune::EcGreedyOptions options;
     options.seed = seed;
-    if (ec) options.ec = static_cast<elim::Wide>(std::round(*ec));
+    if (ec) options.ec = ecgreedy::rounded(*ec);
     options.start_ec = options.ec;
     options.sigma = sigma;
     options.kept = keep;
@@ -101,9 +102,7 @@ SharedGraph ecgreedy(const Graph& graph, std::optional<double> ec, std::optional
     std::vector<prune::Move> moves = prune::ecgreedy(choice, evidence, options);
     if (moves.empty()) throw score::singular_error(problem, values);
     if (options.ec) moves.resize(prune::moves_within(choice, moves, *options.ec, options));
-    if (auto free = prune::free_edges(choice, evidence, moves, options))
-      moves.push_back(std::move(*free));
-    return prune::kept_by(from.candidates, moves);
+    return prune::kept_by(from.candidates, ecgreedy::with_free(choice, evidence, moves, options));
   });
 }
 
@@ -114,17 +113,11 @@ SharedGraph keyframes(const Graph& graph, Index rate, double distance, double an
   return unlocked([&] {
     const graph::PoseIndex poses = graph::pose_index(graph);
     const graph::Lists<> odometry = prune::odometry_steps(graph, poses);
-    prune::Keyframing keyframing =
+    const prune::Keyframing keyframing =
         prune::keyframing(graph, poses, odometry,
                           prune::choose_keyframes(graph, poses, odometry, {rate, distance, angle}),
                           {move_loops, std::nullopt, fuse});
-    formats::Changes changes = cmd::pruned(graph, poses, min_obs, std::move(keyframing.removal));
-    changes.late_edge = keyframing.late;
-    changes.edge_line = [&](Index e) -> std::optional<std::string> {
-      if (!keyframing.rewritten[e]) return std::nullopt;
-      return prune::rewritten_line(keyframing, e);
-    };
-    return shared(formats::applied(graph, std::move(changes), {}));
+    return shared(formats::applied(graph, kf::changes(keyframing, min_obs), {}));
   });
 }
 
@@ -150,7 +143,7 @@ void bind_pruning(py::module_& module) {
              "Keep so many candidates, drawn at random: sg-rand(1).");
   module.def("tgreedy", &tgreedy, "graph"_a, "keep"_a, py::kw_only(), "weights"_a = "unit", kind,
              min_obs, "Keep the candidates that carry most spanning trees: sg-tgreedy(1).");
-  module.def("ecgreedy", &ecgreedy, "graph"_a, py::kw_only(), "ec"_a = py::none(),
+  module.def("ecgreedy", &ec_greedy, "graph"_a, py::kw_only(), "ec"_a = py::none(),
              "sigma"_a = py::none(), "keep"_a = py::none(), "order"_a = "wmf", kind, min_obs,
              "seed"_a = 0,
              "Keep the candidates that add most accuracy for their elimination complexity: "
