@@ -34,7 +34,7 @@ void each_block(int tiles, int at_once, bool parallel, Work&& work) {
 
 std::size_t panel_work(const Kernels& kernel, int n, int width) {
   const std::size_t w = width;
-  return (round_up(width) + lane) * w + lane + round_up(width) + (n + 2 * kernel.tile) * w;
+  return (round_up(width) + lane) * w + lane + 3 * round_up(width) + (n + 2 * kernel.tile) * w;
 }
 
 std::size_t factorization_work(const Kernels& kernel, int f, int n) {
@@ -47,8 +47,8 @@ int factorize_by_panels(const Kernels& kernel, const Front& front, const double*
   int dropped = 0;
   for (int first = 0; first < front.f; first += width) {
     Panel panel{first, std::min(width, front.f - first), work, nullptr, nullptr};
-    panel.inverse = panel.block + panel.ld_block() * panel.width + lane;
-    panel.packed = panel.inverse + round_up(panel.width);
+    panel.diagonals = panel.block + panel.ld_block() * panel.width + lane;
+    panel.packed = panel.diagonals + 3 * round_up(panel.width);
     dropped += kernel.factorize_block(front, panel, floor);
     const int tiles = kernel.tiles(front, panel), at_once = std::max(1, rows_at_once / kernel.tile);
     const bool parallel = threads > 1 && tiles > 2 * at_once;

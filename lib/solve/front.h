@@ -59,9 +59,9 @@ struct Run {
 // (2008).
 struct Panel {
   int first, width;
-  double* block;    // ld_block * width: its square of L11
-  double* inverse;  // width: of the pivots, 0 where one was dropped
-  double* packed;   // tiles * tile * width
+  double* block;      // ld_block * width: its square of L11
+  double* diagonals;  // 10 * width / 4: its blocks of four on the diagonal, factorized
+  double* packed;     // tiles * tile * width
 
   int ld_block() const { return round_up(width) + lane; }  // no power of two
 };

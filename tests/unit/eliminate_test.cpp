@@ -160,7 +160,7 @@ TEST_CASE("kernels: by panels of any width, by any number of threads, the bytes 
   for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
     for (const int f : {1, 2, 3, 31, 33, 64, 257}) {
       for (const int s : {0, 1, 2, 31, 33, 257}) {
-        INFO(kernel->name << " " << f << " " << s);
+        INFO(kernel->name << ", " << f << " frontals, separator " << s);
         DenseFront dense(random, f, s);
         const int n = dense.front.n;
         const sg::solve::Run all{0, 0, n};
@@ -189,7 +189,8 @@ TEST_CASE("kernels: by panels of any width, by any number of threads, the bytes 
                                                        work.data(), threads, width);
             });
             REQUIRE(dropped == 0);
-            CHECK(lower() == expected);
+            const bool same = lower() == expected;
+            CHECK(same);
           }
         }
       }
@@ -225,8 +226,9 @@ TEST_CASE("kernels: a pivot is dropped by panels as by columns", "[eliminate]") 
   }
 }
 
-TEST_CASE("kernels: a square taken from a front, its rows in any order; a front without an update",
-          "[eliminate]") {
+TEST_CASE(
+    "kernels: a square taken from a front, its rows in any order, and a front without an update",
+    "[eliminate]") {
   for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
     INFO(kernel->name);
     for (int trial = 0; trial < 200; ++trial) {
