@@ -30,7 +30,7 @@ inline int rows_covered(std::span<const Run> runs) {
 // landmark's would be s^2 numbers of rank 3: they cost more to write and to read than to work out
 // again.
 inline bool stays_factor(int f, int s) {
-  return f <= 8 && s > 2 * f;
+  return f <= 8 && s > 8 * f;
 }
 
 // Adds what a child says of its separator: its update, or, if it forms none, what its factor takes
