@@ -5,7 +5,8 @@
 //
 // Where the stacked J is square, as of a spanning tree, W_k = A_k^-1 is the minimum. Otherwise Newton's method follows
 // the central path of the barrier  -r sum_k log det W_k  down to r = 0; where the result must not know more than there
-// was, Q <= S^-1, with the barrier  -r log det(S^-1 - Q)  as well.
+// was, Q <= S^-1, with the barrier  -r log det(S^-1 - Q)  as well. The first step for a smaller r has the curvature of
+// the barrier before: it is a step along the path's tangent, and goes all the way where a W_k vanishes in proportion to r.
 //
 // Sources: Mazuran, Burgard, Tipaldi, Nonlinear factor recovery for long-term SLAM (2016); Vandenberghe, Boyd, Wu,
 // Determinant maximization with linear matrix inequality constraints (1998).
@@ -28,6 +29,7 @@ struct Recovery {
 struct RecoveryOptions {
   bool conservative = false;  // Q <= S^-1
   double penalty = 0;         // times sum_k tr(W_k A_k) is minimized, too: how dear pairs are
+  bool multiples = false;     // W_k = w_k A_k^-1, one unknown a pair
 };
 
 // slopes: J_k (d_k x m), of which each has full rank, as all of them together. covariance: S (m x m), regular.
