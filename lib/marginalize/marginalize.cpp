@@ -343,7 +343,7 @@ struct Market {
     const Graph& graph = *at.problem.graph;
     graph::Order now = order;
     for (int k = 0;; ++k) {
-      Prices sheet = prices(tree, now, price * unit);
+      Prices sheet = prices(tree, now, removed, price * unit);
       Marginalization result = one_pass(at, removed, rule, &sheet, progress);
       const graph::Pattern left = pattern_left(graph, result).pattern;
       now = order::elimination_order(ordering, left);

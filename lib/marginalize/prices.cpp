@@ -12,9 +12,9 @@ using Eigen::MatrixXd;
 
 constexpr double factor_cost = 100;  // of any, beside elimination
 constexpr std::size_t most_for_a_tree =
-    3;  // pairs for each of the tree's, as recovery takes the cube of their number
+    2;  // pairs for each of the tree's, as recovery takes the cube of their number
 
-// Its ends by position, ascending; fewer than two where one has none.
+// Its ends by position, ascending, without those that have none.
 std::vector<Index> row(const Prices& prices, const Measurable& of) {
   std::vector<Index> row;
   for (const Index v : {of.first, of.second}) {
@@ -36,14 +36,24 @@ MatrixXd informed(const MatrixXd& covariance, const Pair& pair) {
 
 }  // namespace
 
-Prices prices(const graph::GraphPattern& left, const graph::Order& order, double rate) {
+Prices prices(const graph::GraphPattern& left, const graph::Order& order,
+              const std::vector<bool>& removed, double rate) {
   Prices result{elim::filled_graph(elim::ordered(left.pattern, order)),
-                std::vector<Index>(left.vertex_variable.size(), -1), rate};
+                std::vector<Index>(left.vertex_variable.size(), -1), rate, 0};
+  result.average =
+      result.filled.ec / static_cast<elim::Wide>(std::max<Index>(left.pattern.rows.size(), 1));
+  for (std::size_t v = 0; v < removed.size(); ++v) {
+    if (removed[v]) result.position[v] = going;
+  }
+
   for (Index k = 0; k < std::ssize(order); ++k) result.position[left.variable_vertex[order[k]]] = k;
   return result;
 }
 
 elim::Wide price(Prices& prices, const Measurable& of) {
+  for (const Index v : {of.first, of.second}) {
+    if (v >= 0 && prices.position[v] == going) return prices.average;
+  }
   return elim::increase(prices.filled, row(prices, of));
 }
 

@@ -18,13 +18,17 @@ namespace sg::marginalize {
 struct Prices {
   elim::FilledGraph filled;  // of what is left, as far as it is known
   std::vector<Index>
-      position;  // of every vertex in the order; -1 of constants and of what goes in its turn
+      position;  // of every vertex in the order; -1 of constants, going of what goes in its turn
   double rate;   // nats that a unit of EC has to bring
+  elim::Wide average;  // EC for each factor
 };
+constexpr Index going = -2;
 // left: what is there in any case. order: of its variables.
-Prices prices(const graph::GraphPattern& left, const graph::Order& order, double rate);
+Prices prices(const graph::GraphPattern& left, const graph::Order& order,
+              const std::vector<bool>& removed, double rate);
 
-// By how much EC grows with it; 0 where an end has no position.
+// By how much EC grows with it; where an end goes in its turn, what a factor costs on average, as nobody knows yet what
+// that will leave.
 elim::Wide price(Prices& prices, const Measurable& of);
 // Adds it.
 void pay(Prices& prices, const Measurable& of);

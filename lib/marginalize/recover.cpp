@@ -1,6 +1,9 @@
 #include "lib/marginalize/recover.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -180,6 +183,39 @@ void minimize(const Scaled& problem, const RecoveryOptions& options, double barr
   }
 }
 
+constexpr double gap = 1e-4;
+constexpr int most_sweeps = 1000;
+constexpr std::size_t most_unknowns = 130;  // of Newton's method, where blocks in turn will do
+
+// Sets every block in turn to its best beside the others.
+void fit_in_turn(const Scaled& problem, Blocks& V) {
+  const auto m = static_cast<double>(problem.m);
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    MatrixXd P =
+        LLT<MatrixXd>(information(problem, V)).solve(MatrixXd::Identity(problem.m, problem.m));
+    double excess = 0, trace = 0;
+    for (std::size_t k = 0; k < V.size(); ++k) {
+      const MatrixXd PJ = P * problem.J[k].transpose(), B = problem.J[k] * PJ;
+      const auto d = B.rows();
+      trace += V[k].trace();
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> own(B);
+      excess = std::max(excess, own.eigenvalues()[d - 1] - 1);
+      const MatrixXd known = own.eigenvectors() * own.eigenvalues().cwiseInverse().asDiagonal() *
+                                 own.eigenvectors().transpose() -
+                             V[k];
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> rest(known);
+      const VectorXd lacking = (1 - rest.eigenvalues().array()).max(0.0);
+      const MatrixXd next =
+          rest.eigenvectors() * lacking.asDiagonal() * rest.eigenvectors().transpose();
+      const MatrixXd more = next - V[k];
+      P.noalias() -=
+          PJ * (MatrixXd::Identity(d, d) + more * B).partialPivLu().solve(more) * PJ.transpose();
+      V[k] = next;
+    }
+    if (trace - m + excess * m < gap) return;  // of what it was before this sweep
+  }
+}
+
 }  // namespace
 
 double log_det(const MatrixXd& matrix) {
@@ -198,7 +234,10 @@ Recovery recover(std::span<const MatrixXd> slopes, const MatrixXd& covariance,
     V.push_back(MatrixXd::Identity(J.rows(), J.rows()));
   }
   const bool closed_form = rows == problem.m && !options.conservative && options.penalty == 0;
-  if (!closed_form) {
+  const bool plain = !options.conservative && options.penalty == 0 && !options.multiples;
+  if (plain && !closed_form && unknowns(V, false).size() > most_unknowns) {
+    fit_in_turn(problem, V);
+  } else if (!closed_form) {
     // Each J_k' J_k is a projection: with less than one over their number, the sum is below I.
     const double start = options.conservative
                              ? 0.9 / static_cast<double>(V.size())

@@ -3,10 +3,16 @@
 //     sum_k tr(W_k A_k) - log det(Q S) - m,      A_k = J_k S J_k',   Q = sum_k J_k' W_k J_k,   W_k >= 0,
 // convex in the W_k (a determinant maximization problem).
 //
-// Where the stacked J is square, as of a spanning tree, W_k = A_k^-1 is the minimum. Otherwise Newton's method follows
+// Where the stacked J is square, as of a spanning tree, W_k = A_k^-1 is the minimum. Otherwise each W_k in turn is set to
+// its best beside the others, which is a formula: with C = (J_k Q^-1 J_k')^-1 - W_k, what they know of the measurement,
+// A_k^-1 - C less its negative part, both in coordinates in which A_k = I. (For a decomposable pattern that is iterative
+// proportional fitting.) Where more is asked, Newton's method follows
 // the central path of the barrier  -r sum_k log det W_k  down to r = 0; where the result must not know more than there
 // was, Q <= S^-1, with the barrier  -r log det(S^-1 - Q)  as well. The first step for a smaller r has the curvature of
 // the barrier before: it is a step along the path's tangent, and goes all the way where a W_k vanishes in proportion to r.
+//
+// How far a minimum may be: for any W', log det Q' <= log det Q + tr(Q^-1 Q') - m, so that with J_k Q^-1 J_k' <= (1 + e) A_k
+// the objective is at most  sum_k tr(W_k A_k) - m + e m  above its least.
 //
 // Sources: Mazuran, Burgard, Tipaldi, Nonlinear factor recovery for long-term SLAM (2016); Vandenberghe, Boyd, Wu,
 // Determinant maximization with linear matrix inequality constraints (1998).
