@@ -31,6 +31,7 @@ struct Live {
   const At& at;
   const Rule& rule;
   Prices* prices;           // of topology ec
+  double gap;               // of what is recovered (recover.h)
   graph::Lists<> edges_at;  // of every vertex
   std::deque<Made> made = {};
   std::vector<std::vector<Index>> made_at = {};  // of every vertex; those that are gone among them
@@ -39,9 +40,10 @@ struct Live {
   Marginalization result = {};
 };
 
-Live live_graph(const At& at, const std::vector<bool>& removed, const Rule& rule, Prices* prices) {
+Live live_graph(const At& at, const std::vector<bool>& removed, const Rule& rule, Prices* prices,
+                double gap) {
   const Graph& graph = *at.problem.graph;
-  Live live{at, rule, prices, graph::transpose(graph.edge_vertices, graph.vertices())};
+  Live live{at, rule, prices, gap, graph::transpose(graph.edge_vertices, graph.vertices())};
   live.made_at.resize(graph.vertices());
   live.start = {0};
   for (Index v = 0; v < graph.vertices(); ++v) live.start.push_back(live.start.back() + at.dim(v));
@@ -173,7 +175,8 @@ void make_sparse(Live& live, const Piece& piece, std::span<const Index> cluster)
   }
   std::vector<MatrixXd> slopes;
   for (const Index k : chosen) slopes.push_back(spread(around, pairs[k]));
-  Recovery recovery = recover(slopes, around.covariance, {.conservative = live.rule.conservative});
+  Recovery recovery =
+      recover(slopes, around.covariance, {.conservative = live.rule.conservative, .gap = live.gap});
   live.result.divergence += recovery.divergence;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const Measurable& of = pairs[chosen[k]].of;
@@ -295,8 +298,9 @@ void set_errors(Live& live) {
 using Progress = std::function<void(Index)>;
 
 Marginalization one_pass(const At& at, const std::vector<bool>& removed, const Rule& rule,
-                         Prices* prices, const Progress& progress) {
-  Live live = live_graph(at, removed, rule, prices);
+                         Prices* prices, const Progress& progress,
+                         double gap = RecoveryOptions{}.gap) {
+  Live live = live_graph(at, removed, rule, prices, gap);
   const auto all =
       clusters(*at.problem.graph, removed, rule.linear ? Clusters::global : rule.clusters);
   if (!rule.linear) check_types(live, all);
@@ -321,6 +325,7 @@ Marginalization one_pass(const At& at, const std::vector<bool>& removed, const R
 
 constexpr std::string_view ordering = "wmf";  // that EC is priced in
 constexpr int renewals = 1;                   // of the order, by what it left
+constexpr double rough = 0.1;                 // gap of what only an order is taken of
 constexpr int bracketings = 5, bisections = 6;
 constexpr double step = 8;  // of prices, as long as none on the other side is known
 
@@ -344,7 +349,8 @@ struct Market {
     graph::Order now = order;
     for (int k = 0;; ++k) {
       Prices sheet = prices(tree, now, removed, price * unit);
-      Marginalization result = one_pass(at, removed, rule, &sheet, progress);
+      Marginalization result = k == renewals ? one_pass(at, removed, rule, &sheet, progress)
+                                             : one_pass(at, removed, rule, &sheet, progress, rough);
       const graph::Pattern left = pattern_left(graph, result).pattern;
       now = order::elimination_order(ordering, left);
       if (k == renewals)

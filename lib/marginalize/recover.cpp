@@ -183,12 +183,9 @@ void minimize(const Scaled& problem, const RecoveryOptions& options, double barr
   }
 }
 
-constexpr double gap = 1e-4;
 constexpr int most_sweeps = 1000;
-constexpr std::size_t most_unknowns = 130;  // of Newton's method, where blocks in turn will do
-
 // Sets every block in turn to its best beside the others.
-void fit_in_turn(const Scaled& problem, Blocks& V) {
+void fit_in_turn(const Scaled& problem, double gap, Blocks& V) {
   const auto m = static_cast<double>(problem.m);
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     MatrixXd P =
@@ -236,7 +233,7 @@ Recovery recover(std::span<const MatrixXd> slopes, const MatrixXd& covariance,
   const bool closed_form = rows == problem.m && !options.conservative && options.penalty == 0;
   const bool plain = !options.conservative && options.penalty == 0 && !options.multiples;
   if (plain && !closed_form && unknowns(V, false).size() > most_unknowns) {
-    fit_in_turn(problem, V);
+    fit_in_turn(problem, options.gap, V);
   } else if (!closed_form) {
     // Each J_k' J_k is a projection: with less than one over their number, the sum is below I.
     const double start = options.conservative

@@ -83,6 +83,14 @@ std::vector<Index> most_informative(const Blanket& blanket, const std::vector<Pa
   return further;
 }
 
+// As many of these, the greatest first, as the tree has: vertices that go in their turn would have ever more neighbours.
+std::vector<Index> first_few(std::vector<Index> further, const Tree& tree,
+                             const std::vector<double>& of) {
+  std::ranges::stable_sort(further, std::greater(), [&](Index k) { return of[k]; });
+  further.resize(std::min(further.size(), tree.pairs.size()));
+  return further;
+}
+
 // Huang, Kaess, Leonard, Consistent sparsification for graph optimization (2013): the pairs that a penalty on all of
 // them leaves, here on the trace of their information, a multiple each of what a tree's has, and never with more
 // information than there was.
@@ -92,12 +100,13 @@ std::vector<Index> penalized(const Blanket& blanket, const std::vector<Pair>& pa
   for (const Pair& pair : pairs) slopes.push_back(spread(blanket, pair));
   const Recovery recovered = recover(slopes, blanket.covariance,
                                      {.conservative = true, .penalty = penalty, .multiples = true});
-  std::vector<Index> result;
-  for (const Index k : others(pairs, tree)) {
-    const double share = (recovered.information[k] * pairs[k].covariance).trace();
-    if (share > 1e-3 * static_cast<double>(pairs[k].covariance.rows())) result.push_back(k);
-  }
-  return result;
+  std::vector<double> share(pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    share[k] = (recovered.information[k] * pairs[k].covariance).trace() /
+               static_cast<double>(pairs[k].covariance.rows());
+  std::vector<Index> result = others(pairs, tree);
+  std::erase_if(result, [&](Index k) { return share[k] < 1e-3; });
+  return first_few(std::move(result), tree, share);
 }
 
 // What is left of a link of the information matrix beside what its two ends know: its largest correlation.
@@ -124,11 +133,11 @@ double link(const At& at, const Piece& piece, Index u, Index v) {
 // information filters (2004): weak links of the information matrix go.
 std::vector<Index> strong_links(const At& at, const Piece& piece, const std::vector<Pair>& pairs,
                                 const Tree& tree, double threshold) {
+  std::vector<double> strength(pairs.size(), 0);
   std::vector<Index> result = others(pairs, tree);
-  std::erase_if(result, [&](Index k) {
-    return link(at, piece, pairs[k].of.first, pairs[k].of.second) < threshold;
-  });
-  return result;
+  for (const Index k : result) strength[k] = link(at, piece, pairs[k].of.first, pairs[k].of.second);
+  std::erase_if(result, [&](Index k) { return strength[k] < threshold; });
+  return first_few(std::move(result), tree, strength);
 }
 
 }  // namespace
