@@ -2,8 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "lib/graph/components.h"
 #include "lib/sparse/cholesky.h"
@@ -14,9 +16,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_steps = 8;
-constexpr double shortest = 0.1;  // part of a step
-constexpr double enough = 1e-12;  // of what is owed
+constexpr int most_steps = 40;
+constexpr int remembered = 5;     // steps
+constexpr double enough = 1e-10;  // of what is owed
 // Added to the information of every scalar, as a part of it: next to nothing may be known of some directions.
 constexpr double damping = 1e-10;
 
@@ -150,6 +152,45 @@ double size(const System& system, const VectorXd& gradient) {
   return std::sqrt(sum);
 }
 
+VectorXd weights(const System& system) {
+  VectorXd weight = VectorXd::Zero(system.place.size());
+  for (Eigen::Index i = 0; i < weight.size(); ++i) {
+    if (system.place[i] >= 0) weight[i] = std::sqrt(system.diagonal[system.place[i]]);
+  }
+  return weight;
+}
+
+// The last changes of x, and what they changed of the step that a fixed system gives there.
+struct Memory {
+  std::deque<VectorXd> moved, changed;
+  VectorXd x, step;
+};
+
+// A step that learns from those before how the slopes of measurements change with their errors (Anderson, Iterative
+// procedures for nonlinear integral equations, 1965).
+VectorXd accelerated(Memory& memory, const VectorXd& weight, const VectorXd& x,
+                     const VectorXd& step) {
+  if (memory.x.size() > 0) {
+    memory.moved.push_back(x - memory.x);
+    memory.changed.push_back(step - memory.step);
+    if (std::ssize(memory.moved) > remembered) {
+      memory.moved.pop_front();
+      memory.changed.pop_front();
+    }
+  }
+  memory.x = x;
+  memory.step = step;
+  const auto count = static_cast<Eigen::Index>(memory.moved.size());
+  if (count == 0) return step;
+  MatrixXd changed(x.size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) changed.col(k) = weight.cwiseProduct(memory.changed[k]);
+  const VectorXd share = changed.colPivHouseholderQr().solve(weight.cwiseProduct(step));
+  VectorXd result = step;
+  for (Eigen::Index k = 0; k < count; ++k)
+    result -= share[k] * (memory.moved[k] + memory.changed[k]);
+  return result;
+}
+
 }  // namespace
 
 void set_errors(const At& at, const VectorXd& owed, bool conservative,
@@ -161,22 +202,21 @@ void set_errors(const At& at, const VectorXd& owed, bool conservative,
   }
   for (const Measurement* m : measurements) s.information.push_back(m->information);
   System system;
-  VectorXd x = VectorXd::Zero(owed.size());
   if (!factor_system(s, system)) return;
-  VectorXd rest = s.owed;
-  for (int k = 0; k < most_steps && size(system, rest) > enough * size(system, s.owed); ++k) {
-    const VectorXd step = solved(system, rest);
-    double length = 1;
-    VectorXd next = still_owed(s, x + step);
-    while (!(size(system, next) < size(system, rest)) && length > shortest) {
-      length /= 2;
-      next = still_owed(s, x + length * step);
+  const VectorXd weight = weights(system);
+  const double whole = size(system, s.owed);
+  VectorXd x = VectorXd::Zero(owed.size()), rest = s.owed, best = x;
+  double least = whole;
+  Memory memory;
+  for (int k = 0; k < most_steps && least > enough * whole; ++k) {
+    x += accelerated(memory, weight, x, solved(system, rest));
+    rest = still_owed(s, x);
+    if (size(system, rest) < least) {
+      least = size(system, rest);
+      best = x;
     }
-    if (!(size(system, next) < size(system, rest))) break;
-    x += length * step;
-    rest = std::move(next);
   }
-  still_owed(s, x);
+  still_owed(s, best);
 }
 
 }  // namespace sg::marginalize

@@ -42,11 +42,11 @@ Prices prices(const graph::GraphPattern& left, const graph::Order& order,
                 std::vector<Index>(left.vertex_variable.size(), -1), rate, 0};
   result.average =
       result.filled.ec / static_cast<elim::Wide>(std::max<Index>(left.pattern.rows.size(), 1));
+  for (Index k = 0; k < std::ssize(order); ++k) result.position[left.variable_vertex[order[k]]] = k;
   for (std::size_t v = 0; v < removed.size(); ++v) {
     if (removed[v]) result.position[v] = going;
   }
 
-  for (Index k = 0; k < std::ssize(order); ++k) result.position[left.variable_vertex[order[k]]] = k;
   return result;
 }
 

@@ -184,6 +184,7 @@ void minimize(const Scaled& problem, const RecoveryOptions& options, double barr
 }
 
 constexpr int most_sweeps = 1000;
+constexpr double next_to_nothing = 1e-10;  // of a tree's: nothing would not be positive definite
 // Sets every block in turn to its best beside the others.
 void fit_in_turn(const Scaled& problem, double gap, Blocks& V) {
   const auto m = static_cast<double>(problem.m);
@@ -201,7 +202,7 @@ void fit_in_turn(const Scaled& problem, double gap, Blocks& V) {
                                  own.eigenvectors().transpose() -
                              V[k];
       const Eigen::SelfAdjointEigenSolver<MatrixXd> rest(known);
-      const VectorXd lacking = (1 - rest.eigenvalues().array()).max(0.0);
+      const VectorXd lacking = (1 - rest.eigenvalues().array()).max(next_to_nothing);
       const MatrixXd next =
           rest.eigenvectors() * lacking.asDiagonal() * rest.eigenvectors().transpose();
       const MatrixXd more = next - V[k];

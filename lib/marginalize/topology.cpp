@@ -83,27 +83,37 @@ std::vector<Index> most_informative(const Blanket& blanket, const std::vector<Pa
   return further;
 }
 
-// As many of these, the greatest first, as the tree has: vertices that go in their turn would have ever more neighbours.
+// How many pairs come beside a tree's where nobody says it: half as many. With more, vertices that go in their turn would
+// have ever more neighbours.
+std::size_t half(const Tree& tree) {
+  return (tree.pairs.size() + 1) / 2;
+}
+
+// The greatest of these.
 std::vector<Index> first_few(std::vector<Index> further, const Tree& tree,
                              const std::vector<double>& of) {
   std::ranges::stable_sort(further, std::greater(), [&](Index k) { return of[k]; });
-  further.resize(std::min(further.size(), tree.pairs.size()));
+  further.resize(std::min(further.size(), half(tree)));
   return further;
 }
 
 // Huang, Kaess, Leonard, Consistent sparsification for graph optimization (2013): the pairs that a penalty on all of
 // them leaves, here on the trace of their information, a multiple each of what a tree's has, and never with more
-// information than there was.
+// information than there was. Those that the tree is hardly wrong about are left out before.
 std::vector<Index> penalized(const Blanket& blanket, const std::vector<Pair>& pairs,
                              const Tree& tree, double penalty) {
+  std::vector<Index> offered =
+      most_informative(blanket, pairs, tree, 2 * static_cast<Index>(tree.pairs.size()));
+  offered.insert(offered.begin(), tree.pairs.begin(), tree.pairs.end());
   std::vector<MatrixXd> slopes;
-  for (const Pair& pair : pairs) slopes.push_back(spread(blanket, pair));
+  for (const Index k : offered) slopes.push_back(spread(blanket, pairs[k]));
   const Recovery recovered = recover(slopes, blanket.covariance,
                                      {.conservative = true, .penalty = penalty, .multiples = true});
-  std::vector<double> share(pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    share[k] = (recovered.information[k] * pairs[k].covariance).trace() /
-               static_cast<double>(pairs[k].covariance.rows());
+  std::vector<double> share(pairs.size(), 0);
+  for (std::size_t i = 0; i < offered.size(); ++i) {
+    const MatrixXd& A = pairs[offered[i]].covariance;
+    share[offered[i]] = (recovered.information[i] * A).trace() / static_cast<double>(A.rows());
+  }
   std::vector<Index> result = others(pairs, tree);
   std::erase_if(result, [&](Index k) { return share[k] < 1e-3; });
   return first_few(std::move(result), tree, share);
@@ -278,7 +288,7 @@ std::vector<Index> chosen_pairs(const At& at, const Piece& piece, const Blanket&
                                 const std::vector<Pair>& pairs, const Tree& tree,
                                 const Sparsity& sparsity) {
   std::vector<Index> further;
-  const auto half = static_cast<Index>(tree.pairs.size() + 1) / 2;
+  const auto usual = static_cast<Index>(half(tree));
   switch (sparsity.topology) {
     case Topology::tree:
     case Topology::ec:
@@ -287,7 +297,7 @@ std::vector<Index> chosen_pairs(const At& at, const Piece& piece, const Blanket&
       further = others(pairs, tree);
       break;
     case Topology::subgraph:
-      further = most_informative(blanket, pairs, tree, sparsity.extra < 0 ? half : sparsity.extra);
+      further = most_informative(blanket, pairs, tree, sparsity.extra < 0 ? usual : sparsity.extra);
       break;
     case Topology::l1:
       further = penalized(blanket, pairs, tree, sparsity.penalty);

@@ -16,11 +16,11 @@ std::vector<std::string> topology_names();
 
 struct Sparsity {
   Topology topology = Topology::tree;
-  Index extra = -1;          // subgraph: pairs beyond the tree; -1: one for every two of the tree
-  double penalty = 1;        // l1: of a pair, in units of what a tree's measurement costs
-  double threshold = 0.1;    // seif: of a link's correlation
-  double price = 1;          // ec: of EC, as a multiple of what a tree loses a unit of its own
-  std::optional<double> ec;  // ec: the price is the least that leaves no more EC than this
+  Index extra = -1;        // subgraph: pairs beyond the tree; -1: one for every two of the tree
+  double penalty = 1;      // l1: of a pair, in units of what a tree's measurement costs
+  double threshold = 0.1;  // seif: of a link's correlation
+  double price = 1;        // ec: of EC, as a multiple of what a tree loses a unit of its own
+  std::optional<double> ec = {};  // ec: the price is the least that leaves no more EC than this
 };
 
 // The Gaussian of a blanket in its steps, all but those of the vertex that is held (a piece that only moves with the
