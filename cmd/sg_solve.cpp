@@ -16,6 +16,7 @@
 #include "cmd/common/same_file.h"
 #include "cmd/common/table.h"
 #include "cmd/solve/certificate.h"
+#include "cmd/solve/plan.h"
 #include "cmd/solve/residuals.h"
 #include "cmd/solve/robust.h"
 #include "cmd/solve/timing.h"
@@ -52,16 +53,13 @@ struct Options {
   bool keep = false;
 };
 
-constexpr int most_iterations = 1000;
-
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
   options.inputs.options.unknown_edge = factor::has_no_model;
   auto& app = command.app;
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
-  app.add_option(
-         "-i,--iterations", options.iterations,
-         "At most N iterations, and write what they reach\n(default: 1000, which have to converge)")
+  app.add_option("-i,--iterations", options.iterations,
+                 "At most N, and write what they reach (default: 1000)")
       ->option_text("N")
       ->transform(cmd::whole(0));
   app.add_option("--tolerance", options.tolerance,
@@ -89,10 +87,8 @@ void add_options(cmd::Command& command, Options& options) {
       "--init", [&options] { options.start = "odometry"; }, "The same as --start odometry");
   app.add_flag("--keep", options.keep, "Write the graph even if it did not converge");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
-  app.add_flag("--residuals", options.residuals,
-               "Print a table: a row an edge of the graph as it is,\nthe worst first");
-  app.add_flag("--certify", options.certify,
-               "Print a table: whether the graph as it is is the\nglobal optimum");
+  app.add_flag("--residuals", options.residuals, "Print a table: a row an edge, the worst first");
+  app.add_flag("--certify", options.certify, "Print a table: whether this is the global optimum");
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
       ->transform(cmd::whole(1));
@@ -107,7 +103,7 @@ solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
   solve::BatchOptions batch;
   batch.method = options.gauss_newton ? solve::BatchMethod::gauss_newton
                                       : solve::BatchMethod::levenberg_marquardt;
-  batch.iterations = options.iterations.value_or(most_iterations);
+  batch.iterations = options.iterations.value_or(solve::most_iterations);
   batch.tolerance = options.tolerance;
   batch.loss = solve::loss(options.robust, graph);
   return batch;
@@ -129,15 +125,6 @@ void print_iteration(const solve::Iteration& iteration) {
   for (const double seconds : {iteration.linearize_s, iteration.eliminate_s})
     line += '\t' + text::format_number(seconds);
   cmd::print_error(line + "\n");
-}
-
-// Which vertices' lines an optimization rewrites: all but the constants.
-std::vector<bool> moved(const factor::Problem& problem) {
-  std::vector<bool> result(problem.graph->vertices(), false);
-  for (std::size_t j = 0; j < problem.variables.variable_vertex.size(); ++j) {
-    result[problem.variables.variable_vertex[j]] = !factor::is_held(problem, static_cast<Index>(j));
-  }
-  return result;
 }
 
 std::string rounded(double number) {
@@ -192,16 +179,6 @@ void print_certificate(const cmd::Command& command, const Options& options,
   output.commit();
 }
 
-solve::LinearSolver planned(const Options& options, const factor::Problem& problem,
-                            const factor::LinearSystem& system) {
-  graph::GraphPattern variables = problem.variables;
-  graph::Lists<>& rows = variables.pattern.rows;
-  if (problem.held >= 0) rows.begin.pop_back();  // the order is that without the gauge's row
-  rows.items.resize(rows.begin.back());
-  const graph::Order order = cmd::named_order(options.method, *problem.graph, variables).order;
-  return solve::find_backend(options.backend).make(system, order, options.threads);
-}
-
 void warn_of_scale(const cmd::Command& command) {
   cmd::warn(command,
             "nothing fixes the scale: it stays near the start's (FIX a second pose, or add an edge "
@@ -239,7 +216,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   if (command.verbose) tell_starts(starts);
   const Graph& graph = *problem.graph;
   const auto plan = [&](const factor::Problem& part, const factor::LinearSystem& system) {
-    return planned(options, part, system);
+    return solve::planned({options.method, options.backend, options.threads}, part, system);
   };
   cmd::stage("order");
   factor::LinearSystem system;
@@ -282,7 +259,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
     print_residuals(options, options.weights, problem, values, batch.loss);
   }
   cmd::write_filtered(command, options.output, graph,
-                      cmd::estimate_changes(problem, values, moved(problem)));
+                      cmd::estimate_changes(problem, values, solve::moved(problem)));
   tell(command, result, cmd::seconds_since(begin));
 }
 

@@ -73,6 +73,7 @@ void move_points(Isam2& isam) {
   moved.clear();
   for (Index j : isam.candidates) {
     isam.moved[j] = false;
+    if (isam.pinned[j] || isam.tree.variable_clique[j] < 0) continue;
     if (largest(isam, j) < isam.options.relinearize_threshold && !isam.unseen[j]) continue;
     isam.unseen[j] = false;
     move_point(isam, j);
@@ -128,6 +129,13 @@ void mark_to_root(Isam2& isam, Index c) {
   for (; c >= 0 && cliques[c].marked != isam.updates; c = cliques[c].parent) {
     cliques[c].marked = isam.updates;
     isam.work.marked.push_back(c);
+  }
+}
+
+void mark_all(Isam2& isam) {
+  for (Index c = 0; c < static_cast<Index>(isam.tree.cliques.size()); ++c) {
+    const Isam2Clique& clique = isam.tree.cliques[c];
+    if (is_there(clique) && !is_prior(clique)) mark_to_root(isam, c);
   }
 }
 
