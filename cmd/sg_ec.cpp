@@ -9,6 +9,7 @@
 #include "lib/elim/row_price.h"
 #include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
+#include "lib/solve/eliminate.h"
 
 using namespace sg;
 
@@ -47,16 +48,24 @@ struct ScoreRow {
   std::optional<elim::Symbolic> symbolic_ = {};
   std::optional<elim::Score> score_ = {};
   std::optional<elim::BayesTree> tree_ = {};
+  std::optional<graph::Order> order_ = {};
+  std::optional<solve::Storage> storage_ = {};
 
   const graph::Pattern& pattern() const { return subject.variables.pattern; }
+  const graph::Order& order() {
+    return cmd::once(order_, [&] { return order_of(subject); });
+  }
   const elim::Symbolic& symbolic() {
-    return cmd::once(symbolic_, [&] { return elim::symbolic(pattern(), order_of(subject)); });
+    return cmd::once(symbolic_, [&] { return elim::symbolic(pattern(), order()); });
   }
   const elim::Score& score() {
     return cmd::once(score_, [&] { return elim::column_score(symbolic()); });
   }
   const elim::BayesTree& tree() {
     return cmd::once(tree_, [&] { return elim::bayes_tree(symbolic()); });
+  }
+  const solve::Storage& storage() {
+    return cmd::once(storage_, [&] { return solve::storage(pattern(), order()); });
   }
 };
 
@@ -114,6 +123,10 @@ const std::vector<cmd::Column<ScoreRow>> score_columns{
     {"cliques", "Cliques of the Bayes tree", [](ScoreRow& row) { return row.tree().cliques(); }},
     {"ec_bt", "Elimination complexity of the Bayes tree: the sum over cliques",
      [](ScoreRow& row) { return elim::elimination_complexity(row.tree()); }},
+    {"factor_bytes", "Of sg-solve's factor: numbers and lists",
+     [](ScoreRow& row) { return row.storage().factor_bytes; }, "-f"},
+    {"peak_bytes", "The same with the updates, where these are most",
+     [](ScoreRow& row) { return row.storage().peak_bytes; }, "-f"},
 };
 
 const std::vector<cmd::Column<VertexRow>> vertex_columns{
@@ -223,6 +236,7 @@ void show_file(const std::string& path, const Options& options, const Show& show
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
   cmd::add_methods(command, options.methods);
+  cmd::add_budget(command.app, options.methods.budget);
   auto& app = command.app;
   app.add_flag("--trace", options.trace, "A row for every step of the growing graph")
       ->option_text(" ");
@@ -247,8 +261,10 @@ void score(const cmd::Command& command, const Options& options) {
                                  {"--per-edge", "a row an edge"}});
   if (!options.trace) cmd::refuse(command.app, {"--every", "--min-obs"}, "without --trace");
   cmd::check(options.methods);
+  cmd::check_budget(command, options.methods);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
-                         {"--trace", options.trace}};
+                         {"--trace", options.trace},
+                         {"-f", false}};
   cmd::Output output(options.output.path);
   output.keep_rows();
   const auto show_files = [&](const Show& show) {

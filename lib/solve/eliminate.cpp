@@ -20,7 +20,6 @@ namespace {
 void plan_runs(const graph::Pattern& pattern, Elimination& e) {
   const CliqueTree& tree = e.tree;
   e.rows = graph::grouped(tree.row_clique, tree.cliques());
-  e.children = graph::grouped(tree.parent, tree.cliques());
   std::vector<int> row_at(pattern.variables());
   for (Index c = 0; c < tree.cliques(); ++c) {
     const int last_row = place_variables(tree.frontals[c], tree.separators[c], pattern.dim, row_at);
@@ -111,27 +110,35 @@ Offset plan_updates(Elimination& e, const Elimination::Task& task, const std::ve
   return base + peak[0] + peak[1];
 }
 
-void plan_storage(const factor::LinearSystem& system, Elimination& e) {
+// Places all conditionals and updates. Their numbers, with the slack that kernels want.
+struct Numbers {
+  std::int64_t conditionals, updates;
+};
+Numbers plan_places(Elimination& e) {
   const Index cliques = e.tree.cliques();
   e.l_at.resize(cliques);
   e.u_at.resize(cliques);
   Offset l = 0;
-  int rows = 0;
   std::vector<int> depth(cliques, 0);
   for (Index c = cliques - 1; c >= 0; --c) {
     if (e.tree.parent[c] >= 0) depth[c] = depth[e.tree.parent[c]] + 1;
   }
   for (Index c = 0; c < cliques; ++c) {
-    const Front front = e.front(c);
     e.l_at[c] = l;
-    l += front.size_l();
-    rows = std::max(rows, front.ld_l());
+    l += e.front(c).size_l();
   }
   Offset u = 0;
   for (const Elimination::Task& task : e.tasks) u = plan_updates(e, task, depth, u);
-  e.conditionals = Arena(l + lane);
-  e.updates = Arena(u + lane);
+  return {l + lane, u + lane};
+}
 
+void plan_storage(const factor::LinearSystem& system, Elimination& e) {
+  const Numbers numbers = plan_places(e);
+  e.conditionals = Arena(numbers.conditionals);
+  e.updates = Arena(numbers.updates);
+
+  int rows = 0;
+  for (Index c = 0; c < e.tree.cliques(); ++c) rows = std::max(rows, e.front(c).ld_l());
   e.scratch_size = rows + lane;
   for (Index r = 0; r < system.pattern->rows.size(); ++r) {
     const std::size_t height = system.height[r];
@@ -202,11 +209,35 @@ void run_tasks(const Elimination& e, Work&& work) {
 
 }  // namespace
 
+namespace {
+
+Elimination plan_tree(const graph::Pattern& pattern, const graph::Order& order) {
+  Elimination e;
+  e.tree = clique_tree(pattern, order);
+  e.children = graph::grouped(e.tree.parent, e.tree.cliques());
+  return e;
+}
+
+std::int64_t bytes(const graph::Lists<>& lists) {
+  return static_cast<std::int64_t>((lists.begin.size() + lists.items.size()) * sizeof(Index));
+}
+
+}  // namespace
+
+Storage storage(const graph::Pattern& pattern, const graph::Order& order) {
+  Elimination e = plan_tree(pattern, order);
+  plan_tasks(e, 1);
+  const Numbers numbers = plan_places(e);
+  constexpr std::int64_t size = sizeof(double);
+  const std::int64_t factor =
+      size * numbers.conditionals + bytes(e.tree.frontals) + bytes(e.tree.separators);
+  return {factor, factor + size * numbers.updates};
+}
+
 Elimination plan_elimination(const factor::LinearSystem& system, const graph::Order& order,
                              int threads) {
   assert(factor::is_laid_out(system));
-  Elimination e;
-  e.tree = clique_tree(*system.pattern, order);
+  Elimination e = plan_tree(*system.pattern, order);
   plan_scalars(*system.pattern, e);
   plan_runs(*system.pattern, e);
   plan_tasks(e, threads);

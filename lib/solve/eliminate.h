@@ -15,6 +15,7 @@
 // Dellaert and Kaess, Square Root SAM (2006).
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -60,6 +61,14 @@ struct Elimination {
             f + tree.separator_dim[c] + 1};
   }
 };
+
+// What an elimination takes on one thread, from the structure alone.
+struct Storage {
+  std::int64_t
+      factor_bytes;         // numbers of the conditionals, and the lists of the cliques' variables
+  std::int64_t peak_bytes;  // these, and the updates where their stacks are highest
+};
+Storage storage(const graph::Pattern& pattern, const graph::Order& order);
 
 // For this system and all of its structure. Throws std::invalid_argument if `order` is no
 // permutation.

@@ -237,6 +237,26 @@ TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate
   }
 }
 
+TEST_CASE("an elimination's storage is foretold as it is allocated", "[eliminate]") {
+  Random random(12);
+  for (int trial = 0; trial < 100; ++trial) {
+    const int n = draw(random, 1, 60);
+    System system = random_system(random, n, draw(random, 0, 2 * n));
+    system.linear.pattern = &system.pattern;
+    const sg::graph::Order order = shuffled(random, n);
+    const sg::solve::Storage said = sg::solve::storage(system.pattern, order);
+    const auto elimination = sg::solve::plan_elimination(system.linear, order);
+    std::size_t lists = 0;
+    for (const auto* list : {&elimination.tree.frontals, &elimination.tree.separators}) {
+      lists += 4 * (list->begin.size() + list->items.size());
+    }
+    CHECK(said.factor_bytes ==
+          static_cast<std::int64_t>(8 * elimination.conditionals.size() + lists));
+    CHECK(said.peak_bytes - said.factor_bytes ==
+          static_cast<std::int64_t>(8 * elimination.updates.size()));
+  }
+}
+
 TEST_CASE("undetermined variables are named, the others solved", "[eliminate]") {
   Random random(4);
   for (int trial = 0; trial < 50; ++trial) {
