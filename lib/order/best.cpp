@@ -19,6 +19,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string_view>
@@ -207,8 +208,9 @@ void report(const Search& search, std::string_view how, int tries) {
 
 // CPU time of a method in that of amd, about, on a large graph.
 double effort(const Ordering& method) {
-  if (method.compute == wmf || method.compute == sloan) return 25;
-  if (method.compute == metis || method.compute == scotch || method.compute == mmd) return 10;
+  if (method.compute == sloan) return 25;
+  const std::array around_ten{wmf, metis, scotch, mmd};
+  if (std::ranges::find(around_ten, method.compute) != around_ten.end()) return 10;
   return 2;
 }
 
