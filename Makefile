@@ -9,7 +9,7 @@ JOBS   ?= $(shell nproc)
 # Debian packages, by what they are for.
 build_packages := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
-	libcairo2-dev libspectra-dev pkg-config
+	libcairo2-dev libspectra-dev libjs-d3 pkg-config
 test_packages  := catch2 bats python3 mandoc graphviz zstd gzip bzip2 xz-utils
 lint_packages  := clang-format clang-tidy python3 mandoc git
 bench_packages := libbenchmark-dev
