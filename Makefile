@@ -19,7 +19,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers starts marginalize lint format clean
+.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers budget starts marginalize lint format clean picture
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -75,6 +75,9 @@ deb: build build/packages/deb ## make Debian packages, sgtools and libsgtools-de
 	@cd $(BUILD) && cpack -G DEB >/dev/null
 	@tests/install/deb $(BUILD)/packages
 
+picture: build ## draw the picture of the README
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -f experiments/demo/Makefile picture
+
 bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
 	@$(call configure,$(commands_alone) -DSGTOOLS_BENCH=ON)
 	@$(call build,benchmarks)
@@ -101,6 +104,9 @@ orderings: build build/packages/plot ## every ordering on every graph, into out/
 
 outliers: build ## which false edges sg-solve --gnc finds, and what they cost, into out/outliers
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/outliers OUT=$(CURDIR)/out/outliers
+
+budget: build ## what a budget of EC buys online, into out/budget
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/budget OUT=$(CURDIR)/out/budget
 
 starts: build ## every start of sg-solve on every graph, into out/starts (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/starts OUT=$(CURDIR)/out/starts \

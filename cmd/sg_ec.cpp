@@ -91,8 +91,7 @@ void score(const cmd::Command& command, const Options& options) {
   cmd::check(options.methods);
   cmd::check_budget(command, options.methods);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
-                         {"--trace", options.trace},
-                         {"-f", false}};
+                         {"--trace", options.trace}};
   cmd::Output output(options.output.path);
   output.keep_rows();
   const auto show_files = [&](const Show& show) {

@@ -121,6 +121,8 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return row.window.admission.returned; }, spending_measurements},
     {"budget", "Bound of ec_bt", [](Row& row) { return row.window.options.budget; }, "a budget"},
     {"violations", "Steps so far that ended above the budget", &Row::violations, "a budget"},
+    {"renewed", "Steps so far that ordered the whole anew",
+     [](Row& row) { return row.window.renewed; }, "--renew"},
     {"error", "Metres from the truth of the newest pose", &Row::error, "--truth"},
     {"sigma", "Standard deviation of the newest pose's position",
      [](Row& row) { return isam2::online_sigma(row.window.replay, row.step); }, "--sigma"},
@@ -167,6 +169,10 @@ void add_window(CLI::App& app, Options& options) {
                  "The same in milliseconds, by what steps have taken so far")
       ->option_text("X")
       ->check(cmd::number(0));
+  app.add_option("--renew", options.window.renew,
+                 "Order the whole anew where ec_bt is above X times what\nthat gives")
+      ->option_text("X")
+      ->check(cmd::number(1));
   app.add_option("--truth", options.truth, "Add error, from where FILE has the newest pose")
       ->option_text("FILE");
   app.add_flag("--sigma", options.sigma, "Add sigma, of the newest pose");
@@ -305,6 +311,7 @@ void run(const cmd::Command& command, const Options& options) {
       {letting_go, lets_go(options)},
       {spending_measurements, options.window.spend == solve::Spend::measurements},
       {"a budget", has_budget(options)},
+      {"--renew", options.window.renew > 0},
       {"--truth", !options.truth.empty()},
       {"--sigma", options.sigma}};
   cmd::Table table(options.table, columns, given, output);

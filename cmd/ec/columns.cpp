@@ -10,12 +10,8 @@ graph::Order order_of(const Subject& subject) {
   return cmd::order_by(*subject.method, subject.options, subject.graph, subject.variables);
 }
 
-const graph::Order& ScoreRow::order() {
-  return cmd::once(order_, [&] { return order_of(subject); });
-}
-
 const elim::Symbolic& ScoreRow::symbolic() {
-  return cmd::once(symbolic_, [&] { return elim::symbolic(pattern(), order()); });
+  return cmd::once(symbolic_, [&] { return elim::symbolic(pattern(), order_of(subject)); });
 }
 
 const elim::Score& ScoreRow::score() {
@@ -24,10 +20,6 @@ const elim::Score& ScoreRow::score() {
 
 const elim::BayesTree& ScoreRow::tree() {
   return cmd::once(tree_, [&] { return elim::bayes_tree(symbolic()); });
-}
-
-const solve::Storage& ScoreRow::storage() {
-  return cmd::once(storage_, [&] { return solve::storage(pattern(), order()); });
 }
 
 namespace {
@@ -88,10 +80,6 @@ const std::vector<cmd::Column<ScoreRow>> score_columns{
     {"cliques", "Cliques of the Bayes tree", [](ScoreRow& row) { return row.tree().cliques(); }},
     {"ec_bt", "Elimination complexity of the Bayes tree: the sum over cliques",
      [](ScoreRow& row) { return elim::elimination_complexity(row.tree()); }},
-    {"factor_bytes", "Of sg-solve's factor: numbers and lists",
-     [](ScoreRow& row) { return row.storage().factor_bytes; }, "-f"},
-    {"peak_bytes", "The same with the updates, where these are most",
-     [](ScoreRow& row) { return row.storage().peak_bytes; }, "-f"},
 };
 
 const std::vector<cmd::Column<VertexRow>> vertex_columns{

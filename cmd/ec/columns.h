@@ -10,7 +10,6 @@
 #include "cmd/common/table.h"
 #include "lib/elim/bayes_tree.h"
 #include "lib/graph/replay.h"
-#include "lib/solve/eliminate.h"
 
 namespace sg::ec {
 
@@ -32,15 +31,11 @@ struct ScoreRow {
   std::optional<elim::Symbolic> symbolic_ = {};
   std::optional<elim::Score> score_ = {};
   std::optional<elim::BayesTree> tree_ = {};
-  std::optional<graph::Order> order_ = {};
-  std::optional<solve::Storage> storage_ = {};
 
   const graph::Pattern& pattern() const { return subject.variables.pattern; }
-  const graph::Order& order();
   const elim::Symbolic& symbolic();
   const elim::Score& score();
   const elim::BayesTree& tree();
-  const solve::Storage& storage();
 };
 extern const std::vector<cmd::Column<ScoreRow>> score_columns;
 
