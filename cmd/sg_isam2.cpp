@@ -162,15 +162,14 @@ void add_window(CLI::App& app, Options& options) {
            options.window.spend =
                what == "window" ? solve::Spend::window : solve::Spend::measurements;
          },
-         "What gives for the budget: old poses (default), or\nclosures and observations")
-      ->option_text("window|measurements")
+         "What gives: window (default) or measurements")
+      ->option_text("WHAT")
       ->check(cmd::one_of({"window", "measurements"}));
-  app.add_option("--budget-ms", options.budget_ms,
-                 "The same in milliseconds, by what steps have taken so far")
+  app.add_option("--budget-ms", options.budget_ms, "The same in milliseconds, as steps took so far")
       ->option_text("X")
       ->check(cmd::number(0));
   app.add_option("--renew", options.window.renew,
-                 "Order the whole anew where ec_bt is above X times what\nthat gives")
+                 "Order anew where ec_bt is X times what that gives")
       ->option_text("X")
       ->check(cmd::number(1));
   app.add_option("--truth", options.truth, "Add error, from where FILE has the newest pose")

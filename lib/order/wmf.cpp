@@ -223,6 +223,14 @@ GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vecto
 
 namespace {
 
+// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, minimum fill is not on a
+// graph of so many entries.
+constexpr std::int64_t narrow = 1000, wide = 4000, large = 30000;
+// Entries a variable, beyond which a graph is no mesh.
+constexpr std::int64_t dense = 20;
+// List entries that a pass may look at for every entry of a large graph.
+constexpr std::int64_t most_work = 20;
+
 // The better of the greedy passes that the size of the graph affords.
 GreedyResult minimum_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
                           GreedyOptions greedy) {
@@ -231,7 +239,7 @@ GreedyResult minimum_fill(const graph::Pattern& pattern, const graph::Adjacency&
   const std::int64_t size = entries(graph);
   if (best.work <= 25 * size) {
     try_cheap(pattern, graph, greedy, best);
-  } else if (size > 20 * std::int64_t{graph.size()} && best.work <= 100 * size) {
+  } else if (size > dense * std::int64_t{graph.size()} && best.work <= 100 * size) {
     try_bounds(pattern, graph, greedy, best);
   }
   return best;
@@ -243,12 +251,6 @@ GreedyResult by_dissection(const graph::Pattern& pattern, const graph::Adjacency
   result.ec = elim::elimination_complexity(pattern, result.order);
   return result;
 }
-
-// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, minimum fill is not on a
-// graph of so many entries.
-constexpr std::int64_t narrow = 1000, wide = 4000, large = 30000;
-// List entries that a pass may look at for every entry of a large graph.
-constexpr std::int64_t most_work = 20;
 
 }  // namespace
 
@@ -273,7 +275,9 @@ graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
     return std::move(best.order);
   }
   GreedyResult best = by_dissection(pattern, graph, options.seed);
-  if (best.ec > static_cast<elim::Wide>(wide * size)) return std::move(best.order);
+  // Where variables have many neighbours, landmarks do, a high EC says nothing of width.
+  const bool sparse = size <= dense * std::int64_t{graph.size()};
+  if (sparse && best.ec > static_cast<elim::Wide>(wide * size)) return std::move(best.order);
   greedy.bounded_work = most_work * size;  // hubs are in every front, and have long lists
   keep_better(best, minimum_fill(pattern, graph, greedy));
   return std::move(best.order);
