@@ -32,7 +32,8 @@ int open_nameless(Unfinished& output) {
   if (descriptor < 0) return -1;
   std::snprintf(output.nameless.data(), output.nameless.size(), "/proc/self/fd/%d", descriptor);
   const auto last = std::strlen(output.temporary.data()) - 6;
-  std::snprintf(output.temporary.data() + last, 7, "%06d", static_cast<int>(::getpid() % 1000000));
+  const std::string digits = std::to_string(1000000 + ::getpid() % 1000000);
+  digits.copy(output.temporary.data() + last, 6, 1);
   struct stat status {};
   const bool usable = ::stat(output.nameless.data(), &status) == 0 &&
                       ::lstat(output.temporary.data(), &status) != 0;
