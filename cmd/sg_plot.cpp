@@ -1,10 +1,11 @@
-// sg-plot: pictures of a graph, of its factor, of its Bayes tree.
+// sg-plot: pictures of a graph, of its factor, of its Bayes tree, of a table.
 #include <algorithm>
 #include <array>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
+#include "cmd/plot/curves.h"
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
@@ -28,15 +29,17 @@ struct Options {
   bool cost = false;
   bool sigma = false;
   std::vector<std::string> only;
+  std::vector<std::string> log;  // axes
   plot::PageSize size{600, 600};
 };
 
 void add_options(cmd::Command& command, Options& options) {
   auto& app = command.app;
   app.add_option("WHAT", options.what,
-                 "map: where everything is\npattern: R and its fill\ntree: the Bayes tree")
+                 "map: where everything is\npattern: R and its fill\ntree: the Bayes tree\ncurves: "
+                 "the columns of a table")
       ->required()
-      ->check(cmd::one_of({"map", "pattern", "tree"}))
+      ->check(cmd::one_of({"map", "pattern", "tree", "curves"}))
       ->option_text(" ");
   cmd::add_input(command, options.input);
   cmd::add_method(command, options.method);
@@ -57,6 +60,11 @@ void add_options(cmd::Command& command, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("KIND,...");
+  app.add_option("--log", options.log, "Of curves: these axes are logarithmic: x, y")
+      ->check(cmd::one_of({"x", "y"}))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("AXIS,...");
   app.add_option("--width", options.size.width,
                  "Of the picture, in points or pixels (default: 600)")
       ->transform(cmd::whole(64, 20000))
@@ -143,6 +151,24 @@ void draw(cairo_t* page, const Options& options, const Graph& graph) {
   plot::draw_title(page, options.size, title(graph, variables, name, order), 12, 9, 8);
 }
 
+std::string picture_of_curves(const Options& options, plot::PictureFormat format) {
+  const text::Text text = cmd::read_text(options.input);
+  const plot::Curves curves = plot::read_curves(text.view, text::input_name(options.input.path));
+  const auto is_log = [&](const char* axis) {
+    return std::ranges::find(options.log, axis) != options.log.end();
+  };
+  cmd::stage("draw");
+  return plot::picture(format, options.size.width, options.size.height, [&](cairo_t* page) {
+    plot::draw_curves(page, options.size, curves, {is_log("x"), is_log("y")});
+  });
+}
+
+void write(const Options& options, const std::string& bytes) {
+  cmd::Output output(options.output.path);
+  output.write(bytes);
+  output.commit();
+}
+
 void run(const cmd::Command& command, const Options& options) {
   if (options.what != "map")
     cmd::refuse(command.app, {"--cost", "--sigma", "--plane", "--view", "--only"},
@@ -153,20 +179,27 @@ void run(const cmd::Command& command, const Options& options) {
   if (options.cost) cmd::refuse(command.app, {"--only"}, "with --cost, which colours all edges");
   if (options.sigma) cmd::refuse(command.app, {"--only"}, "with --sigma, whose edges are faint");
   const plot::PictureFormat format = plot::picture_format(options.output.path);
+  if (options.what == "curves") {
+    cmd::refuse(
+        command.app,
+        {"-m", "--seed", "--from", "--vertex", "--edge", "--params", "--alias", "--skip-unknown"},
+        "on curves, which are those of a table");
+    return write(options, picture_of_curves(options, format));
+  }
+  cmd::refuse(command.app, {"--log"}, "on a " + options.what + ", only on curves");
   cmd::check(options.method);
   const Graph graph = cmd::read(options.input);
   cmd::stage("draw");
   const std::string bytes = plot::picture(format, options.size.width, options.size.height,
                                           [&](cairo_t* page) { draw(page, options, graph); });
-  cmd::Output output(options.output.path);
-  output.write(bytes);
-  output.commit();
+  write(options, bytes);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   return cmd::run(
-      cmd::Command("sg-plot", "Draw a graph, its factor, or its Bayes tree (svg, png, pdf)."), argc,
-      argv, add_options, run);
+      cmd::Command("sg-plot",
+                   "Draw a graph, its factor, its Bayes tree, or a table (svg, png, pdf)."),
+      argc, argv, add_options, run);
 }

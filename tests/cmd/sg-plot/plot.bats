@@ -140,7 +140,7 @@ cells() { sed -nE 's/^<path .*fill:rgb.* d="M ([0-9.]+) ([0-9.]+) L ([0-9.]+) [0
   fails 1 "sg-plot: in.g2o:1: VERTEX_X has no place on a map" sg-plot map --vertex VERTEX_X:3:pose in.g2o
   fails 2 "sg-plot: a picture's name ends in .svg, .png or .pdf; not so 'a.jpg' (see sg-plot --help)" \
     sg-plot map walk.g2o -o a.jpg
-  fails 2 "sg-plot: WHAT: hat: there are map, pattern, tree (see sg-plot --help)" sg-plot hat walk.g2o
+  fails 2 "sg-plot: WHAT: hat: there are map, pattern, tree, curves (see sg-plot --help)" sg-plot hat walk.g2o
   fails 2 "sg-plot: WHAT is required (see sg-plot --help)" sg-plot
 }
 
