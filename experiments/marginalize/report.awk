@@ -1,25 +1,36 @@
-# marginalize.tsv as Markdown: which way is dominated (another of the same graph and rate has less EC under wmf and loses no more
-# information), then all ways by graph.
+# marginalize.tsv as Markdown: which ways topology ec does not reach (none of it has, at the same graph and rate, as little EC under
+# wmf and loses no more information), then which it beats, then all ways by graph.
 BEGIN { FS = "\t" }
 NR == 1 { next }
 { row[++n] = $0; graph[n] = $1; rate[n] = $2; way[n] = $3; ec[n] = $7; kld[n] = $8 }
 function number(x, digits) { return x == "" || x == "-" ? "-" : sprintf("%." digits "g", x) }
-function beats(a, b) {
-  return graph[a] == graph[b] && rate[a] == rate[b] && kld[a] != "" && kld[a] != "-" && kld[b] != "" && kld[b] != "-" &&
-         ec[a] + 0 < 0.99 * ec[b] && kld[a] + 0 <= 1.01 * kld[b]
+function ours(i) { return way[i] ~ /^ec@/ }
+function scored(i) { return ec[i] != "-" && kld[i] != "" && kld[i] != "-" }
+# The way of ec that has least EC of those that lose no more than i, within a part in a thousand.
+function best_beside(i,   j, best) {
+  for (j = 1; j <= n; ++j) {
+    if (!ours(j) || !scored(j) || graph[j] != graph[i] || rate[j] != rate[i]) continue
+    if (kld[j] + 0 <= 1.001 * kld[i] && (!best || ec[j] + 0 < ec[best] + 0)) best = j
+  }
+  return best
 }
 END {
-  print "# Poses taken out\n\n## Where we lose\n"
+  print "# Poses taken out\n\n## Where topology ec loses\n"
   for (i = 1; i <= n; ++i) {
-    if (ec[i] == "-") { printf "- %s, rate %s, %s: no result.\n", graph[i], rate[i], way[i]; ++losses; continue }
-    for (j = 1; j <= n; ++j) {
-      if (!beats(j, i)) continue
-      printf "- %s, rate %s: %s costs %.2f times the EC of %s, which loses no more.\n", graph[i], rate[i], way[i], ec[i] / ec[j], way[j]
-      ++losses
-      break
-    }
+    if (!scored(i)) { printf "- %s, rate %s, %s: no result.\n", graph[i], rate[i], way[i]; continue }
+    if (ours(i)) continue
+    j = best_beside(i)
+    if (j && ec[j] + 0 <= 1.001 * ec[i]) continue
+    printf "- %s, rate %s: %s has an EC of %s and loses %s; ", graph[i], rate[i], way[i], number(ec[i], 3), number(kld[i], 3)
+    if (j) printf "%s loses no more, at %.2f times the EC.\n", way[j], ec[j] / ec[i]
+    else print "ec loses more."
   }
-  if (!losses) print "Nowhere: of no graph and rate has one way both less EC and less loss than another."
+  print "\n## What it beats\n"
+  for (i = 1; i <= n; ++i) {
+    j = scored(i) && !ours(i) ? best_beside(i) : 0
+    if (!j || ec[j] + 0 > 0.99 * ec[i]) continue
+    printf "- %s, rate %s: %s costs %.2f times the EC of %s, which loses no more.\n", graph[i], rate[i], way[i], ec[i] / ec[j], way[j]
+  }
   print "\n## By graph\n"
   for (i = 1; i <= n; ++i) {
     split(row[i], f, FS)

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <iomanip>
+#include <numeric>
 #include <sstream>
 
 #include "formats/write.h"
@@ -710,4 +711,71 @@ TEST_CASE("what types alone tell is told before anything is computed", "[margina
   }
   CHECK(message.starts_with("test.g2o:10: vertex 5 of this EDGE_PROJECT_XYZ2UV:EXPMAP cannot be"));
   CHECK(!computed);
+}
+
+TEST_CASE("pairs are taken one by one, each by what those before leave it worth", "[marginalize]") {
+  std::size_t taken = 0;
+  for (int seed = 0; seed < 12; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    const Subject full(
+        random_text(random, {.plane = true, .poses = 9, .closures = 12, .landmarks = 0}));
+    const marginalize::At at = full.at();
+    const marginalize::Piece rest = marginalize::eliminated(at, full.whole(), 4);
+    const marginalize::Blanket around = marginalize::blanket(at, rest);
+    const auto pairs = marginalize::candidate_pairs(at, rest, around);
+    const marginalize::Tree tree = marginalize::spanning_tree(at, around, pairs, rest.absolute);
+    // What is left beside: a chain.
+    std::vector<bool> vertex(full.graph.vertices(), true), edge(full.graph.edges(), false);
+    vertex[4] = false;
+    graph::GraphPattern left = graph::graph_pattern(full.graph, vertex, edge);
+    for (Index k = 1; k < left.pattern.variables(); ++k)
+      left.pattern.rows.add(std::vector<Index>{k - 1, k});
+    graph::Order order(left.pattern.variables());
+    std::iota(order.begin(), order.end(), 0);
+    const double rate = seed % 3 == 0 ? 0 : seed % 3 == 1 ? 1e-4 : 3e-4;
+    marginalize::Prices sheet =
+        marginalize::prices(left, order, std::vector<bool>(full.graph.vertices(), false), rate);
+    const std::vector<Index> found = marginalize::worth_their_price(around, pairs, tree, sheet);
+
+    // All again, by inverses and fresh scores.
+    const auto complexity = [&] { return elim::elimination_complexity(left.pattern, order); };
+    const auto pay = [&](Index k) {
+      std::vector<Index> row{left.vertex_variable[pairs[k].of.first],
+                             left.vertex_variable[pairs[k].of.second]};
+      std::ranges::sort(row);
+      left.pattern.rows.add(row);
+    };
+    MatrixXd P = MatrixXd::Zero(around.information.rows(), around.information.rows());
+    for (const Index k : tree.pairs) {
+      const MatrixXd J = marginalize::spread(around, pairs[k]);
+      P += J.transpose() * (J * around.covariance * J.transpose()).inverse() * J;
+      pay(k);
+    }
+    for (const Index chosen : found) {
+      const elim::Wide before = complexity();
+      pay(chosen);
+      const double cost = elim::to_double(complexity() - before) + 100;
+      const MatrixXd J = marginalize::spread(around, pairs[chosen]);
+      const MatrixXd A = J * around.covariance * J.transpose(), B = J * P.inverse() * J.transpose();
+      const double worth = divergence(B.inverse(), A);
+      CHECK(marginalize::surprise(pairs[chosen], P.inverse()) == Approx(worth).epsilon(1e-6));
+      CHECK(worth / cost > rate * (1 - 1e-9));
+      // It is brought down to what it is, where it was larger, in coordinates in which B = I.
+      const MatrixXd L = B.llt().matrixL(), back = L.inverse();
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> ratio(back * A * back.transpose());
+      const VectorXd more = (ratio.eigenvalues().cwiseInverse().array() - 1).max(0.0);
+      const MatrixXd U = back.transpose() * ratio.eigenvectors();
+      P += J.transpose() * U * more.asDiagonal() * U.transpose() * J;
+    }
+    CHECK(sheet.filled.ec == complexity());
+    taken += found.size();
+    if (found.size() == tree.pairs.size()) continue;
+    for (const Index k : marginalize::others(pairs, tree)) {
+      if (std::ranges::count(found, k) > 0) continue;
+      const double cost = elim::to_double(marginalize::price(sheet, pairs[k].of)) + 100;
+      CHECK(marginalize::surprise(pairs[k], P.inverse()) / cost < rate * 1.5 + 1e-12);
+    }
+  }
+  CHECK(taken > 20);
 }

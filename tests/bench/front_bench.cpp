@@ -1,0 +1,89 @@
+// Dense partial Cholesky against OpenBLAS, on one thread: a front of f frontal and s separator scalars by our kernels,
+// and the same numbers of operations a second by its dpotrf on a matrix of as many rows. `flops` of the two is the ratio.
+// OpenBLAS is loaded when the benchmark runs, so that nothing else here is linked to it.
+#include <benchmark/benchmark.h>
+#include <dlfcn.h>
+
+#include <string>
+#include <vector>
+
+#include "lib/solve/factorize.h"
+
+using namespace sg;
+
+namespace {
+
+using Dpotrf = void (*)(const char*, const int*, double*, const int*, int*);
+
+Dpotrf openblas_dpotrf() {
+  void* const library = dlopen("libopenblas.so.0", RTLD_NOW | RTLD_LOCAL);
+  if (!library) return nullptr;
+  using Set = void (*)(int);
+  reinterpret_cast<Set>(dlsym(library, "openblas_set_num_threads"))(1);
+  return reinterpret_cast<Dpotrf>(dlsym(library, "dpotrf_"));
+}
+
+// Operations of eliminating f of n columns.
+double operations(double f, double n) {
+  return f * (n * n - n * f + f * f / 3);
+}
+
+// Positive definite, its lower triangle by column of any leading dimension.
+double entry(int i, int j, int n) {
+  return i == j ? n : 1.0 / (1 + i + j);
+}
+
+void front(benchmark::State& state) {
+  const solve::Kernels& kernel = solve::kernels();
+  solve::Front front{nullptr, nullptr, static_cast<int>(state.range(0)), 0};
+  front.n = front.f + static_cast<int>(state.range(1)) + 1;
+  std::vector<double> l(front.size_l() + solve::lane), u(front.size_u() + solve::lane);
+  std::vector<double> floor(front.f, 0.0);
+  std::vector<double> work(solve::factorization_work(kernel, front.f, front.n));
+  front.l = l.data();
+  front.u = u.data();
+  for (auto _ : state) {
+    state.PauseTiming();
+    for (int j = 0; j < front.n; ++j) {
+      double* const column = j < front.f
+                                 ? front.l + std::int64_t{j} * front.ld_l()
+                                 : front.u + std::int64_t{j - front.f} * front.ld_u() - front.f;
+      for (int i = j; i < front.n; ++i) column[i] = entry(i, j, front.n);
+    }
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(solve::factorize(kernel, front, floor.data(), work.data(), 1));
+  }
+  state.counters["flops"] = benchmark::Counter(operations(front.f, front.n),
+                                               benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void dpotrf(benchmark::State& state, Dpotrf factorize) {
+  const int n = static_cast<int>(state.range(0) + state.range(1)) + 1;
+  std::vector<double> matrix(static_cast<std::size_t>(n) * n);
+  for (auto _ : state) {
+    state.PauseTiming();
+    for (int j = 0; j < n; ++j) {
+      for (int i = j; i < n; ++i) matrix[static_cast<std::size_t>(j) * n + i] = entry(i, j, n);
+    }
+    state.ResumeTiming();
+    int info = 0;
+    factorize("L", &n, matrix.data(), &n, &info);
+  }
+  state.counters["flops"] =
+      benchmark::Counter(operations(n, n), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+const bool registered = [] {
+  const Dpotrf openblas = openblas_dpotrf();
+  for (const auto& [f, s] : {std::pair{100, 500}, {300, 600}, {600, 1500}, {1500, 0}}) {
+    const std::string name = std::to_string(f) + "+" + std::to_string(s);
+    benchmark::RegisterBenchmark(("front/" + name).c_str(), front)->Args({f, s});
+    if (!openblas) continue;
+    benchmark::RegisterBenchmark(("dpotrf/" + name).c_str(), [openblas](benchmark::State& state) {
+      dpotrf(state, openblas);
+    })->Args({f, s});
+  }
+  return true;
+}();
+
+}  // namespace
