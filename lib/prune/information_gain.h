@@ -41,14 +41,17 @@ struct Gain {
   double log_det;  // by which that of the information grows
 };
 
-// A measurement in the light of what was added.
+// A measurement in the light of what was added. Where a stride is wanted, columns are padded to whole lanes.
 struct Tried {
-  std::vector<Index> path;     // cliques
-  solve::Rows root;            // U, on the path
-  Eigen::MatrixXd covariance;  // C
-  Draws y;                     // J Y
-  Eigen::MatrixXd shared;      // Z, below each other
-  std::size_t known = 0;       // of what was added: as far as it is conditioned
+  std::vector<Index> path;  // cliques
+  Eigen::MatrixXd
+      root;  // U, on the path: rows of all its cliques, then zeros, a lane less one or more
+  solve::Rows covariance;  // C
+  Draws y;                 // J Y
+  solve::Rows shared;      // Z, below each other
+  std::size_t known = 0;   // of what was added: as far as it is conditioned
+
+  int height() const { return static_cast<int>(y.rows()); }
 };
 
 struct Knowledge {
@@ -63,13 +66,14 @@ struct Knowledge {
   std::vector<double> variance;  // by variable: of its position; 0 of what is no pose
 
   struct Added {
-    Tried of;
-    Eigen::MatrixXd l;  // L_ii
-    Draws y;            // L_ii^-1 J Y
-    Index at;           // its first row in all that was added
+    std::vector<Index> path;
+    Eigen::MatrixXd root;
+    Index at, height;  // its rows in all that was added
   };
   std::vector<Added> added;  // since the factor
   Index added_rows = 0;
+  Eigen::MatrixXd l;  // of I + C over all that was added, below the diagonal; it may be larger
+  Draws added_y;      // l^-1 J Y; it may be longer
   std::vector<double> work;  // zeros between calls
 };
 
