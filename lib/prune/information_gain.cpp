@@ -15,6 +15,8 @@ using solve::Rows;
 
 // Of a landmark by the rows that bring it: below this share of its largest singular value it is not determined.
 constexpr double rank_tolerance = 1e-4;
+// Of what rows that are in tell of themselves: less than this is left to the others, and they are needed.
+constexpr double least_left = 1e-6;
 // Columns of right-hand sides at a time: memory stays linear.
 constexpr Index strip = 64;
 
@@ -69,18 +71,39 @@ void draw_signs(boost::random::mt19937& bits, auto&& row) {
   for (int i = 0; i < draws; ++i) row(i) = (word >> i & 1U) != 0 ? 1 : -1;
 }
 
+// Calls visit(row in elimination order, scalar) for all scalars.
+void each_scalar(const Knowledge& knowledge, const auto& visit) {
+  const Evidence& evidence = knowledge.evidence;
+  for (Index j = 0; j < evidence.pattern.variables(); ++j) {
+    for (int k = 0; k < evidence.pattern.dim[j]; ++k)
+      visit(knowledge.triangle.row(j) + k, evidence.step_at[j] + k);
+  }
+}
+
+void place_drift(Knowledge& knowledge) {
+  const MatrixXd& drift = knowledge.evidence.drift;
+  knowledge.drift.resize(drift.rows(), knowledge.aligned ? drift.cols() : 0);
+  if (!knowledge.aligned) return;
+  each_scalar(knowledge,
+              [&](Index row, Index scalar) { knowledge.drift.row(row) = drift.row(scalar); });
+}
+
 // X and Y: only Y has a lower half.
 void draw_responses(Knowledge& knowledge) {
   const Evidence& evidence = knowledge.evidence;
   const Index rows = knowledge.triangle.rows();
   Rows both = Rows::Zero(rows, 2 * draws);
-  for (Index j = 0; j < evidence.pattern.variables(); ++j) {
-    for (int k = 0; k < evidence.pattern.dim[j]; ++k) {
-      const Index row = knowledge.triangle.row(j) + k;
-      draw_signs(knowledge.bits, both.row(row).head<draws>());
-      if (evidence.position[evidence.step_at[j] + k])
-        draw_signs(knowledge.bits, both.row(row).tail<draws>());
-    }
+  auto y = both.rightCols<draws>();
+  each_scalar(knowledge, [&](Index row, Index scalar) {
+    draw_signs(knowledge.bits, both.row(row).head<draws>());
+    const bool drifts = knowledge.drift.cols() > 0 && !knowledge.drift.row(row).isZero(0);
+    if (evidence.position[scalar] || drifts) draw_signs(knowledge.bits, y.row(row));
+  });
+  if (knowledge.aligned) {
+    y -= knowledge.drift * (knowledge.drift.transpose() * y).eval();
+    each_scalar(knowledge, [&](Index row, Index scalar) {
+      if (!evidence.position[scalar]) y.row(row).setZero();
+    });
   }
   solve::solve_lower(knowledge.triangle, both.rightCols<draws>());
   solve::solve_upper(knowledge.triangle, both);
@@ -152,14 +175,13 @@ PartialRows whitened_roots(const Knowledge& knowledge) {
 
 }  // namespace
 
-Knowledge start_knowledge(const Evidence& evidence, std::uint64_t seed) {
-  Knowledge knowledge{evidence, boost::random::mt19937(static_cast<std::uint32_t>(seed)),
-                      {},       {},
-                      {},       {},
-                      {},       {},
-                      {},       {},
-                      0,        {},
-                      {},       {}};
+Knowledge start_knowledge(const Evidence& evidence, bool aligned, std::uint64_t seed) {
+  Knowledge knowledge{evidence, aligned, boost::random::mt19937(static_cast<std::uint32_t>(seed)),
+                      {},       {},      {},
+                      {},       {},      {},
+                      {},       {},      {},
+                      0,        {},      {},
+                      {}};
   knowledge.variance.assign(evidence.pattern.variables(), 0);
   return knowledge;
 }
@@ -172,6 +194,7 @@ std::vector<Index> refactor(Knowledge& knowledge, const Selection& in, const gra
   std::vector<Index> undetermined = solve::eliminate(knowledge.factor, knowledge.selected);
   if (!undetermined.empty()) return undetermined;
   knowledge.triangle = solve::triangle(knowledge.factor);
+  place_drift(knowledge);
   draw_responses(knowledge);
   return undetermined;
 }
@@ -236,16 +259,20 @@ Measurement without(const Evidence& evidence, std::span<const Index> rows, Index
 
 namespace {
 
-Gain gain_of(MatrixXd covariance, const Draws& y) {
-  covariance.diagonal().array() += 1;
-  const Eigen::LLT<MatrixXd> llt(covariance);
+// information: I + C
+Gain gain_of(const MatrixXd& information, const Draws& y) {
+  const Eigen::LLT<MatrixXd> llt(information);
   Gain gain{0, 0};
-  for (Eigen::Index k = 0; k < covariance.rows(); ++k)
+  for (Eigen::Index k = 0; k < information.rows(); ++k)
     gain.log_det += 2 * std::log(llt.matrixLLT()(k, k));
   Draws white = y;
   llt.matrixL().solveInPlace(white);
   gain.trace = white.squaredNorm() / draws;
   return gain;
+}
+
+MatrixXd unit_plus(const MatrixXd& covariance) {
+  return MatrixXd::Identity(covariance.rows(), covariance.cols()) + covariance;
 }
 
 // U = L^-1 J', on the path.
@@ -281,7 +308,8 @@ MatrixXd root_of(Knowledge& knowledge, const Measurement& m, std::span<const Ind
 
 Gain guessed_gain(const Knowledge& knowledge, const Measurement& m) {
   const Draws jx = product(knowledge, m, knowledge.x);
-  return gain_of(jx.lazyProduct(jx.transpose()) / draws, product(knowledge, m, knowledge.y));
+  return gain_of(unit_plus(jx.lazyProduct(jx.transpose()) / draws),
+                 product(knowledge, m, knowledge.y));
 }
 
 Tried try_measurement(Knowledge& knowledge, const Measurement& m) {
@@ -318,7 +346,17 @@ void update(const Knowledge& knowledge, Tried& tried) {
 }
 
 Gain estimated_gain(const Tried& tried) {
-  return gain_of(tried.covariance.leftCols(tried.height()), tried.y);
+  return gain_of(unit_plus(tried.covariance.leftCols(tried.height())), tried.y);
+}
+
+Gain estimated_loss(const Tried& tried) {
+  const int h = tried.height();
+  const MatrixXd information =
+      unit_plus(-tried.covariance.leftCols(h));  // that the others have of it
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(information, Eigen::EigenvaluesOnly);
+  if (!(spectrum.eigenvalues()(0) > least_left)) return {HUGE_VAL, HUGE_VAL};
+  const Gain gain = gain_of(information, tried.y);
+  return {gain.trace, -gain.log_det};
 }
 
 void add(Knowledge& knowledge, Tried tried) {
@@ -328,8 +366,7 @@ void add(Knowledge& knowledge, Tried tried) {
     knowledge.l.conservativeResize(size, size);
     knowledge.added_y.conservativeResize(size, draws);
   }
-  MatrixXd information = tried.covariance.leftCols(height);
-  information.diagonal().array() += 1;
+  const MatrixXd information = unit_plus(tried.covariance.leftCols(height));
   knowledge.l.block(at, 0, height, at) = tried.shared.leftCols(height).transpose();
   knowledge.l.block(at, at, height, height) = Eigen::LLT<MatrixXd>(information).matrixL();
   knowledge.added_y.middleRows(at, height) = tried.y;
@@ -339,8 +376,47 @@ void add(Knowledge& knowledge, Tried tried) {
   knowledge.added_rows = end;
 }
 
-std::vector<Settled> settle(Knowledge& knowledge) {
+namespace {
+
+// Of some that were added, side by side in these columns of L'^-1 U (I + C)^-1/2.
+void settle_strip(Knowledge& knowledge, std::span<const Knowledge::Added> some, const Rows& columns,
+                  std::vector<Settled>& result) {
   const Evidence& evidence = knowledge.evidence;
+  const std::size_t first = result.size();
+  for (const Knowledge::Added& added : some) {
+    result.push_back({{0, 0}, 0});
+    for (Index row = added.at; row < added.at + added.height; ++row)
+      result.back().gain.log_det += 2 * std::log(knowledge.l(row, row));
+  }
+  const MatrixXd drift = knowledge.drift.transpose() * columns;
+  Eigen::Index from = 0;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    result[first + k].gain.trace = -drift.middleCols(from, some[k].height).squaredNorm();
+    from += some[k].height;
+  }
+  Eigen::RowVectorXd squares(columns.cols());
+  for (Index j = 0; j < evidence.pattern.variables(); ++j) {
+    squares.setZero();
+    for (int s = 0; s < evidence.pattern.dim[j]; ++s) {
+      if (evidence.position[evidence.step_at[j] + s])
+        squares += columns.row(knowledge.triangle.row(j) + s).cwiseAbs2();
+    }
+    Settled* settled = result.data() + first;
+    Eigen::Index column = 0;
+    for (const Knowledge::Added& added : some) {
+      const double fall = squares.segment(column, added.height).sum();
+      column += added.height;
+      knowledge.variance[j] -= fall;
+      settled->gain.trace += fall;
+      settled->mean_sigma += std::sqrt(std::max(0.0, knowledge.variance[j])) / evidence.poses;
+      ++settled;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Settled> settle(Knowledge& knowledge) {
   std::vector<Settled> result;
   const PartialRows roots = whitened_roots(knowledge);
   std::size_t k = 0;
@@ -355,23 +431,7 @@ std::vector<Settled> settle(Knowledge& knowledge) {
       columns.row(roots.row[row]).head(end - begin) =
           roots.numbers.row(static_cast<Eigen::Index>(row)).segment(begin, end - begin);
     solve::solve_upper(knowledge.triangle, columns);
-    for (std::size_t i = first; i < k; ++i) {
-      const Knowledge::Added& added = knowledge.added[i];
-      Settled settled{{0, 0}, 0};
-      for (Index row = added.at; row < added.at + added.height; ++row)
-        settled.gain.log_det += 2 * std::log(knowledge.l(row, row));
-      const auto own = columns.middleCols(added.at - begin, added.height);
-      for (Index j = 0; j < evidence.pattern.variables(); ++j) {
-        for (int s = 0; s < evidence.pattern.dim[j]; ++s) {
-          if (!evidence.position[evidence.step_at[j] + s]) continue;
-          const double fall = own.row(knowledge.triangle.row(j) + s).squaredNorm();
-          knowledge.variance[j] -= fall;
-          settled.gain.trace += fall;
-        }
-      }
-      settled.mean_sigma = mean_sigma(knowledge);
-      result.push_back(settled);
-    }
+    settle_strip(knowledge, std::span(knowledge.added).subspan(first, k - first), columns, result);
   }
   return result;
 }
@@ -383,7 +443,16 @@ double mean_sigma(const Knowledge& knowledge) {
 }
 
 double total_variance(const Knowledge& knowledge) {
-  return std::accumulate(knowledge.variance.begin(), knowledge.variance.end(), 0.0);
+  const double sum = std::accumulate(knowledge.variance.begin(), knowledge.variance.end(), 0.0);
+  if (!knowledge.aligned) return sum;
+  const Eigen::Index motions = knowledge.drift.cols();
+  Rows moved = Rows::Zero(knowledge.triangle.rows(), solve::round_up(static_cast<int>(motions)));
+  each_scalar(knowledge, [&](Index row, Index scalar) {
+    if (knowledge.evidence.position[scalar])
+      moved.row(row).head(motions) = knowledge.drift.row(row);
+  });
+  solve::solve_lower(knowledge.triangle, moved);
+  return sum - moved.squaredNorm();
 }
 
 }  // namespace sg::prune

@@ -13,6 +13,12 @@
 // sign vectors, Y = S P' z, (J Y)(J Y)' / k estimates J S P'P S J' (Hutchinson 1990), conditioned alike. A first guess of
 // C, before the root is computed, is (J X)(J X)' / k with X = L'^-1 z.
 //
+// Aligned, positions are judged as after the rigid motion that fits the whole best: P' P gives way to P' (I - D D') P, D an
+// orthonormal basis of what rigid motions do to the positions. The sign vectors lose their part in D.
+//
+// A measurement that is in takes with it, when it goes,
+//     tr[ (I - C)^-1  J S P'P S J' ].
+//
 // What was added tells its exact share when it is settled, all at once: the columns of L'^-1 U (I + C)^-1/2, squared, are
 // by what the variances fell, measurement by measurement.
 #pragma once
@@ -56,6 +62,7 @@ struct Tried {
 
 struct Knowledge {
   const Evidence& evidence;
+  bool aligned;
   boost::random::mt19937 bits;
 
   graph::Pattern pattern;         // of the rows that are in; variables that are not stand still
@@ -63,6 +70,7 @@ struct Knowledge {
   solve::Elimination factor;
   solve::Triangle triangle;
   Draws x, y;                    // in elimination order
+  Eigen::MatrixXd drift;         // likewise; no columns unless aligned
   std::vector<double> variance;  // by variable: of its position; 0 of what is no pose
 
   struct Added {
@@ -77,7 +85,7 @@ struct Knowledge {
   std::vector<double> work;  // zeros between calls
 };
 
-Knowledge start_knowledge(const Evidence& evidence, std::uint64_t seed);
+Knowledge start_knowledge(const Evidence& evidence, bool aligned, std::uint64_t seed);
 
 // Factors the rows that are in (the gauge's always are), variables that are not standing still, in this order of all
 // variables; draws anew. Returns the variables that are left undetermined, ascending: then nothing else is
@@ -99,6 +107,9 @@ Tried try_measurement(Knowledge& knowledge, const Measurement& measurement);
 void update(const Knowledge& knowledge, Tried& tried);
 // The trace estimated, the log determinant exact.
 Gain estimated_gain(const Tried& tried);
+// By how much both would fall without this measurement, which is one of the factored rows, nothing having been added;
+// infinite where it is needed.
+Gain estimated_loss(const Tried& tried);
 // Adds one that is up to date.
 void add(Knowledge& knowledge, Tried tried);
 
@@ -111,7 +122,7 @@ std::vector<Settled> settle(Knowledge& knowledge);
 
 // Mean standard deviation of a pose's position over all of the graph's poses; constants have none.
 double mean_sigma(const Knowledge& knowledge);
-// The sum of the variances.
+// The sum of the variances of the factored rows, as they were taken; aligned, less what moves the whole.
 double total_variance(const Knowledge& knowledge);
 
 }  // namespace sg::prune
