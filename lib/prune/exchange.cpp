@@ -35,7 +35,7 @@ std::vector<double> prices(const Part& part) {
 
 // What would be lost with rows that say this.
 double loss(Part& part, const Measurement& measurement) {
-  if (measurement.variables.empty()) return 0;
+  if (measurement.jacobian.rows() == 0) return 0;  // they say nothing of anything else
   return chosen(part, estimated_loss(try_measurement(part.knowledge, measurement)));
 }
 
