@@ -1,4 +1,5 @@
 // sg-isam2: replay a graph step by step through an incremental smoother; a row a step.
+#include <cmath>
 #include <ctime>
 
 #include "cmd/common/command.h"
@@ -6,11 +7,13 @@
 #include "cmd/common/estimates.h"
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
+#include "cmd/isam2/online.h"
 #include "lib/elim/score.h"
 #include "lib/factor/gauge.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/eliminate.h"
-#include "lib/solve/isam2_replay.h"
+#include "lib/solve/isam2_leave.h"
+#include "lib/solve/isam2_window.h"
 #include "lib/solve/snapshot.h"
 #include "lib/text/nearest.h"
 
@@ -27,8 +30,19 @@ struct Options {
   Index min_obs = 1;
   Index every = 1;
   bool from_file = false;
-  bool colamd = false, chi2 = false, batch = false;
+  bool colamd = false, chi2 = false, batch = false, sigma = false;
+  solve::WindowOptions window;
+  std::int64_t budget = 0;
+  std::optional<double> budget_ms;
+  std::string truth;
 };
+
+bool has_budget(const Options& options) {
+  return options.budget > 0 || options.budget_ms;
+}
+bool lets_go(const Options& options) {
+  return options.window.lag > 0 || std::isfinite(options.window.distance) || has_budget(options);
+}
 
 // Processor time: what other programs on the machine do does not count, and a step of a millisecond
 // that is interrupted for ten stays a step of a millisecond.
@@ -64,11 +78,13 @@ double elimination_seconds(const solve::Isam2& isam, const graph::Order& order) 
 struct Row {
   const std::string& file;
   const std::string& ordering;
+  solve::Isam2Window& window;
   const solve::Isam2& isam;
   Index step;
-  Index factors;
   const solve::Isam2Report& report;
   double seconds;
+  Index violations;
+  std::optional<double> error;
   std::optional<Whole> whole_ = {};
 
   const Whole& whole() {
@@ -76,12 +92,16 @@ struct Row {
   }
 };
 
+constexpr const char* spending_measurements = "--spend measurements";
+constexpr const char* letting_go = "a lag or a budget";
+
 const std::vector<cmd::Column<Row>> columns{
     {"file", "The file", [](Row& row) { return row.file; }, "several files"},
     {"order", "The ordering", [](Row& row) { return row.ordering; }, "several orderings"},
     {"step", "From 0", &Row::step},
     {"variables", "That are there, new ones included", [](Row& row) { return row.isam.variables; }},
-    {"factors", "That are there, new ones included", &Row::factors},
+    {"factors", "That are there, new ones included",
+     [](Row& row) { return solve::factors(row.window); }},
     {"ec_bt", "Elimination complexity of the Bayes tree",
      [](Row& row) { return row.isam.tree.ec_bt; }},
     {"ec_colamd", "EC of the whole graph in COLAMD's order",
@@ -96,6 +116,23 @@ const std::vector<cmd::Column<Row>> columns{
      "--chi2"},
     {"batch_s", "Processor seconds to eliminate the whole system",
      [](Row& row) { return elimination_seconds(row.isam, row.whole().order); }, "--batch"},
+    {"ec_step", "Sum over the cliques that the step eliminated of their share of ec_bt",
+     [](Row& row) { return row.report.ec; }, letting_go},
+    {"window", "Poses that are there", [](Row& row) { return row.step - row.window.first + 1; },
+     letting_go},
+    {"dropped", "Edges so far that named what had left",
+     [](Row& row) { return row.window.dropped; }, letting_go},
+    {"offered", "Closures and observations so far",
+     [](Row& row) { return row.window.admission.offered; }, spending_measurements},
+    {"admitted", "Of these, those that came in",
+     [](Row& row) { return row.window.admission.admitted; }, spending_measurements},
+    {"returned", "Of these, those that were given back later",
+     [](Row& row) { return row.window.admission.returned; }, spending_measurements},
+    {"budget", "Bound of ec_bt", [](Row& row) { return row.window.options.budget; }, "a budget"},
+    {"violations", "Steps so far that ended above the budget", &Row::violations, "a budget"},
+    {"error", "Metres from the truth of the newest pose", &Row::error, "--truth"},
+    {"sigma", "Standard deviation of the newest pose's position",
+     [](Row& row) { return isam2::online_sigma(row.window.replay, row.step); }, "--sigma"},
 };
 
 void add_thresholds(CLI::App& app, solve::Isam2Options& isam) {
@@ -111,6 +148,48 @@ void add_thresholds(CLI::App& app, solve::Isam2Options& isam) {
                  "Pass on changes of X or more (default: 0.001)")
       ->option_text("X")
       ->check(cmd::number(0));
+}
+
+void add_window(CLI::App& app, Options& options) {
+  app.add_option("--lag", options.window.lag, "Poses stay N steps, then they are marginalized")
+      ->option_text("N")
+      ->transform(cmd::whole(1));
+  app.add_option("--lag-distance", options.window.distance,
+                 "Those leave that are over D metres back on the path")
+      ->option_text("D")
+      ->check(cmd::number(0));
+  app.add_flag("--smooth", options.window.smooth,
+               "Keep what has left, and smooth it at the end, for -o");
+  app.add_option("--budget", options.budget, "No step ends with ec_bt above EC: old poses leave")
+      ->option_text("EC")
+      ->transform(cmd::whole(1, std::int64_t{1} << 62));
+  app.add_option_function<std::string>(
+         "--spend",
+         [&options](const std::string& what) {
+           options.window.spend =
+               what == "window" ? solve::Spend::window : solve::Spend::measurements;
+         },
+         "What gives for the budget: old poses (default), or\nclosures and observations")
+      ->option_text("window|measurements")
+      ->check(cmd::one_of({"window", "measurements"}));
+  app.add_option("--budget-ms", options.budget_ms,
+                 "The same in milliseconds, by what steps have taken so far")
+      ->option_text("X")
+      ->check(cmd::number(0));
+  app.add_option("--truth", options.truth, "Add error, from where FILE has the newest pose")
+      ->option_text("FILE");
+  app.add_flag("--sigma", options.sigma, "Add sigma, of the newest pose");
+}
+
+void check_window(const CLI::App& app, const Options& options) {
+  cmd::at_most_one(app, {{"--budget", "bounds the complexity"}, {"--budget-ms", "the time"}});
+  if (!has_budget(options)) cmd::refuse(app, {"--spend"}, "without a budget to spend");
+  if (!lets_go(options))
+    cmd::refuse(app, {"--smooth"}, "without --lag, --lag-distance or a budget: nothing leaves");
+  if (options.output.path.empty())
+    cmd::refuse(app, {"--smooth"}, "without -o, which writes what is smoothed");
+  if (lets_go(options))
+    cmd::refuse(app, {"--batch"}, "where poses leave: the whole is not there to be eliminated");
 }
 
 void add_options(cmd::Command& command, Options& options) {
@@ -134,26 +213,52 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_flag("--colamd", options.colamd, "Add ec_colamd: the EC of the whole, by COLAMD");
   app.add_flag("--chi2", options.chi2, "Add chi2, at the estimate");
   app.add_flag("--batch", options.batch, "Add batch_s: time the elimination of the whole");
+  add_window(app, options);
   cmd::add_output(app, options.output, "Write the final graph to FILE", cmd::Writes::graph);
   cmd::add_table(command, options.table, columns);
 }
 
-void replay(const std::string& file, const std::string& ordering, const Options& options,
-            solve::Isam2Replay& replay, cmd::Table<Row>& table) {
-  cmd::stage("replay", replay.steps.steps);
-  for (Index k = 0; k < replay.steps.steps; ++k) {
+void summarize(const cmd::Command& command, const Options& options, const isam2::Summary& summary,
+               const solve::Isam2Window& window) {
+  if (!lets_go(options) && options.truth.empty()) return;
+  for (const std::string& line : isam2::lines(summary, window.dropped, has_budget(options)))
+    cmd::warn(command, line);
+}
+
+void replay(const cmd::Command& command, const std::string& file, const std::string& ordering,
+            const Options& options, const std::optional<score::Trajectory>& truth,
+            solve::Isam2Window& window, cmd::Table<Row>& table) {
+  const Index steps = window.replay.steps.steps;
+  isam2::Summary summary;
+  isam2::Calibration calibration;
+  cmd::stage("replay", steps);
+  for (Index k = 0; k < steps; ++k) {
     cmd::progress(k);
+    if (options.budget_ms)
+      window.options.budget =
+          static_cast<elim::Wide>(isam2::ec_of(calibration, *options.budget_ms / 1e3));
     const double start = processor_seconds();
-    const solve::Isam2Report report = solve::replay_step(replay, k);
+    const solve::Isam2Report report = solve::window_step(window, k);
     const double seconds = processor_seconds() - start;
-    if (k % options.every != 0 && k + 1 < replay.steps.steps) continue;
-    table.row({file, ordering, replay.isam, k, replay.edges.begin[k + 1], report, seconds});
+    isam2::add(calibration, static_cast<double>(report.ec), seconds);
+    summary.seconds.push_back(seconds);
+    summary.ec.push_back(static_cast<double>(report.ec));
+    if (has_budget(options) && window.replay.isam.tree.ec_bt > window.options.budget)
+      ++summary.violations;
+    std::optional<double> error;
+    if (truth) error = isam2::online_error(window.replay, *truth, k);
+    if (error) summary.error.push_back(*error);
+    if (k % options.every != 0 && k + 1 < steps) continue;
+    table.row({file, ordering, window, window.replay.isam, k, report, seconds, summary.violations,
+               error});
   }
+  summarize(command, options, summary, window);
 }
 
 // Vertices that never entered stay where they were.
 void write_graph(const cmd::Command& command, const Options& options,
-                 const factor::Problem& problem, const solve::Isam2Replay& replay) {
+                 const factor::Problem& problem, solve::Isam2Replay& replay) {
+  if (options.window.smooth) solve::smooth_past(replay.isam);
   factor::Values values = factor::start_values(problem);
   std::vector<bool> moved(problem.graph->vertices(), false);
   for (Index v = 0; v < problem.graph->vertices(); ++v) {
@@ -179,7 +284,7 @@ void hold_at_first(const cmd::Command& command, factor::Problem& problem) {
 }
 
 void run_file(const cmd::Command& command, const Options& options, const std::string& path,
-              cmd::Table<Row>& table) {
+              const std::optional<score::Trajectory>& truth, cmd::Table<Row>& table) {
   const Graph graph = cmd::read(options.inputs, path);
   cmd::stage("start");
   factor::Problem problem = factor::make_problem(graph);
@@ -187,29 +292,41 @@ void run_file(const cmd::Command& command, const Options& options, const std::st
   for (const std::string& ordering : options.orderings) {
     solve::Isam2Options isam = options.isam;
     isam.ordering = ordering;
-    solve::Isam2Replay state =
-        solve::make_isam2_replay(problem, isam, options.min_obs, options.from_file);
-    replay(path, ordering, options, state, table);
-    if (!options.output.path.empty()) write_graph(command, options, problem, state);
+    solve::WindowOptions window = options.window;
+    window.budget = static_cast<elim::Wide>(options.budget);
+    solve::Isam2Window state =
+        solve::make_isam2_window(problem, isam, options.min_obs, options.from_file, window);
+    replay(command, path, ordering, options, truth, state, table);
+    if (!options.output.path.empty()) write_graph(command, options, problem, state.replay);
   }
 }
 
 void run(const cmd::Command& command, const Options& options) {
   solve::kernels();  // a wrong call is told before a long read
   cmd::check_form(command.app);
+  check_window(command.app, options);
   for (const std::string& ordering : options.orderings) order::find_ordering(ordering);
   const bool several = options.inputs.paths.size() > 1;
   const bool several_orderings = options.orderings.size() > 1;
   if (several || several_orderings)
     cmd::refuse(command.app, {"-o"}, "with several files or orderings: one graph goes to one file");
   cmd::Output output("");
-  const cmd::Given given{{"several files", several},
-                         {"several orderings", several_orderings},
-                         {"--colamd", options.colamd},
-                         {"--chi2", options.chi2},
-                         {"--batch", options.batch}};
+  const cmd::Given given{
+      {"several files", several},
+      {"several orderings", several_orderings},
+      {"--colamd", options.colamd},
+      {"--chi2", options.chi2},
+      {"--batch", options.batch},
+      {letting_go, lets_go(options)},
+      {spending_measurements, options.window.spend == solve::Spend::measurements},
+      {"a budget", has_budget(options)},
+      {"--truth", !options.truth.empty()},
+      {"--sigma", options.sigma}};
   cmd::Table table(options.table, columns, given, output);
-  for (const std::string& path : options.inputs.paths) run_file(command, options, path, table);
+  std::optional<score::Trajectory> truth;
+  if (!options.truth.empty()) truth = score::trajectory(cmd::read(options.inputs, options.truth));
+  for (const std::string& path : options.inputs.paths)
+    run_file(command, options, path, truth, table);
   output.commit();
 }
 

@@ -59,9 +59,8 @@ void add_options(cmd::Command& command, Options& options) {
   options.inputs.options.unknown_edge = factor::has_no_model;
   auto& app = command.app;
   app.add_flag("--gn", options.gauss_newton, "Gauss-Newton instead of Levenberg-Marquardt");
-  app.add_option(
-         "-i,--iterations", options.iterations,
-         "At most N iterations, and write what they reach\n(default: 1000, which have to converge)")
+  app.add_option("-i,--iterations", options.iterations,
+                 "At most N, and write what they reach (default: 1000)")
       ->option_text("N")
       ->transform(cmd::whole(0));
   app.add_option("--tolerance", options.tolerance,
@@ -89,10 +88,8 @@ void add_options(cmd::Command& command, Options& options) {
       "--init", [&options] { options.start = "odometry"; }, "The same as --start odometry");
   app.add_flag("--keep", options.keep, "Write the graph even if it did not converge");
   app.add_flag("--chi2", options.chi2, "Print the chi-square of the graph as it is");
-  app.add_flag("--residuals", options.residuals,
-               "Print a table: a row an edge of the graph as it is,\nthe worst first");
-  app.add_flag("--certify", options.certify,
-               "Print a table: whether the graph as it is is the\nglobal optimum");
+  app.add_flag("--residuals", options.residuals, "Print a table: a row an edge, the worst first");
+  app.add_flag("--certify", options.certify, "Print a table: whether this is the global optimum");
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
       ->transform(cmd::whole(1));

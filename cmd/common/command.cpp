@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cmd/common/complete.h"
+#include "cmd/common/help.h"
 #include "formats/convert.h"
 #include "formats/reorder.h"
 #include "lib/text/line.h"
@@ -30,27 +31,27 @@ std::string shell_quoted(const std::string& word) {
 }
 
 void add_read_options(Command& command, formats::ReadOptions& options) {
-  command.app.add_option("--from", options.format, "Input format; told by content otherwise")
+  auto& app = command.app;
+  shared(app.add_option("--from", options.format, "Input format; told by content otherwise"))
       ->option_text("FORMAT")
       ->check(suggests(text::names_of(formats::read_formats())))
       ->each([](const std::string& name) { formats::check_format(name); });
-  command.app
-      .add_option("--vertex", options.vertex_types,
-                  "Teach a vertex tag; ROLE: pose, landmark, other")
+  shared(app.add_option("--vertex", options.vertex_types,
+                        "Teach a vertex tag; ROLE: pose, landmark, other"))
       ->option_text("TAG:DIM:ROLE")
       ->allow_extra_args(false);
-  command.app.add_option("--edge", options.edge_types, "Teach an edge tag")
+  shared(app.add_option("--edge", options.edge_types, "Teach an edge tag"))
       ->option_text("TAG:ARITY")
       ->allow_extra_args(false);
-  command.app.add_option("--params", options.param_tags, "Teach a tag of parameters")
+  shared(app.add_option("--params", options.param_tags, "Teach a tag of parameters"))
       ->option_text("TAG")
       ->allow_extra_args(false);
-  command.app
-      .add_option("--alias", options.aliases, "Read lines of one tag as those of a known one")
+  shared(
+      app.add_option("--alias", options.aliases, "Read lines of one tag as those of a known one"))
       ->option_text("TAG=TAG")
       ->allow_extra_args(false);
-  command.app.add_flag("--skip-unknown", options.skip_unknown,
-                       "Leave out lines that nobody here knows");
+  shared(app.add_flag("--skip-unknown", options.skip_unknown,
+                      "Leave out lines that nobody here knows"));
   options.warning = [&command](const std::string& text) { warn(command, text); };
 }
 
@@ -151,11 +152,11 @@ std::string one_line(std::string_view text) {
 
 Command::Command(std::string name_, std::string what)
     : app(std::move(what), name_), name(std::move(name_)) {
-  app.set_help_flag("-h,--help", "Print this help and exit");
-  app.set_version_flag("--version", name + " (sgtools) " SGTOOLS_VERSION);
-  app.add_flag("-q,--quiet", quiet, "No warnings");
-  app.add_flag("-v,--verbose", verbose, "Say more on standard error");
-  app.get_formatter()->column_width(28);
+  app.formatter(help_formatter());
+  shared(app.set_help_flag("-h,--help", "Print this help and exit"));
+  shared(app.set_version_flag("--version", name + " (sgtools) " SGTOOLS_VERSION));
+  shared(app.add_flag("-q,--quiet", quiet, "No warnings"));
+  shared(app.add_flag("-v,--verbose", verbose, "Say more on standard error"));
 }
 
 int run(Command& command, int argc, char** argv, const std::function<void()>& work) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cmd/common/complete.h"
+#include "cmd/common/help.h"
 #include "cmd/common/options.h"
 #include "lib/text/line.h"
 #include "lib/text/nearest.h"
@@ -138,11 +139,11 @@ void add_table(Command& command, TableOptions& options, const std::vector<NamedT
       ->each([help = meanings(tables)](const std::string& name) {
         if (name == "help") throw Answer{help};
       });
-  command.app.add_flag_callback(
-      "--no-header", [&options] { options.header = false; }, "No header line");
-  command.app.add_flag("--json", options.json, "One JSON object a row");
-  command.app.add_flag("--tsv", options.tsv, "Tab-separated, on a terminal, too");
-  command.app.add_flag("--table", options.table, "Aligned and rounded, in a pipe, too");
+  shared(command.app.add_flag_callback(
+      "--no-header", [&options] { options.header = false; }, "No header line"));
+  shared(command.app.add_flag("--json", options.json, "One JSON object a row"));
+  shared(command.app.add_flag("--tsv", options.tsv, "Tab-separated, on a terminal, too"));
+  shared(command.app.add_flag("--table", options.table, "Aligned and rounded, in a pipe, too"));
 }
 
 std::vector<std::size_t> chosen_columns(const TableOptions& options,

@@ -45,11 +45,8 @@ void add_robust(CLI::App& app, RobustOptions& options) {
          "loops, observations, all: what --kernel or --gnc\nis for (default: all but odometry)")
       ->option_text("WHAT")
       ->check(cmd::one_of({"loops", "observations", "all"}));
-  app.add_flag("--gnc", options.gnc,
-               "Find false edges by graduated non-convexity, and\nleave them out");
-  app.add_option(
-         "--quantile", options.quantile,
-         "With --gnc: of chance's chi-squares, beyond which\nan edge is false (default: 0.9999)")
+  app.add_flag("--gnc", options.gnc, "Graduated non-convexity: leave false edges out");
+  app.add_option("--quantile", options.quantile, "Beyond which an edge is false (default: 0.99999)")
       ->option_text("P")
       ->check(cmd::number(0, 1));
 }

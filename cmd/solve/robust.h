@@ -13,7 +13,7 @@ struct RobustOptions {
   std::string kernel;  // NAME:W, or empty
   std::string on;      // empty: all but odometry
   bool gnc = false;
-  double quantile = 0.9999;
+  double quantile = 0.99999;
 };
 void add_robust(CLI::App& app, RobustOptions& options);
 // Throws a usage Error for a kernel that there is not, and for options that have no effect.

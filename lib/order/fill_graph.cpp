@@ -8,6 +8,10 @@
 namespace sg::order {
 namespace {
 
+bool is_outer(const FillGraph& g, Index v) {
+  return v >= g.inner;
+}
+
 void note_change(FillGraph& g, Index v) {
   if (g.fill[v].changed == g.round) return;
   g.fill[v].changed = g.round;
@@ -72,17 +76,20 @@ std::int64_t take_off_common(FillGraph& g, Index b, std::int64_t pair) {
   return common;
 }
 
-// The new edge {a, b}; the closed neighbourhood of a is marked.
+// The new edge {a, b}, not both outer; the closed neighbourhood of a is marked.
 void join(FillGraph& g, Index a, Index b) {
   if (g.list[b].size > 2 * g.list[b].live + 8) drop_dead(g, b);
   const std::int64_t weight_a = g.fill[a].weight;
   const std::int64_t weight_b = g.fill[b].weight;
   const std::int64_t common = take_off_common(g, b, weight_a * weight_b);
   g.work += g.list[b].size;
-  g.fill[a].fill += weight_b * (g.degree[a] - common);
-  g.fill[b].fill += weight_a * (g.degree[b] - common);
+  // An outer vertex is joined to the outer neighbours of the other end already.
+  g.fill[a].fill += weight_b * (g.degree[a] - common - (is_outer(g, b) ? g.around[a] : 0));
+  g.fill[b].fill += weight_a * (g.degree[b] - common - (is_outer(g, a) ? g.around[b] : 0));
   g.degree[a] += weight_b;
   g.degree[b] += weight_a;
+  if (is_outer(g, b)) g.around[a] += weight_b;
+  if (is_outer(g, a)) g.around[b] += weight_a;
   g.hash[a] += mix(b);
   g.hash[b] += mix(a);
   append(g, a, b);
@@ -101,10 +108,13 @@ void join_neighbours(FillGraph& g, Index v) {
   const Index hub = *largest;
   *largest = clique.back();
   clique.back() = hub;
+  const auto outer =
+      std::partition(clique.begin(), clique.end() - 1, [&](Index u) { return !is_outer(g, u); });
+  const auto inner = static_cast<std::size_t>(outer - clique.begin());
   std::vector<Index>& miss_hub = g.miss_hub;
   miss_hub.clear();
   const std::size_t others = clique.size() - 1;
-  for (std::size_t i = 0; i < others && g.fill[v].fill > 0; ++i) {
+  for (std::size_t i = 0; i < inner && g.fill[v].fill > 0; ++i) {
     mark_closed_neighbourhood(g, clique[i]);
     for (std::size_t j = i + 1; j < others; ++j) {
       if (g.mark[clique[j]] != g.stamp) join(g, clique[i], clique[j]);
@@ -112,9 +122,12 @@ void join_neighbours(FillGraph& g, Index v) {
     if (g.mark[hub] != g.stamp) miss_hub.push_back(clique[i]);
     g.work += static_cast<std::int64_t>(others - i);
   }
+  if (!is_outer(g, hub)) miss_hub.insert(miss_hub.end(), outer, clique.end() - 1);
   if (miss_hub.empty()) return;
   mark_closed_neighbourhood(g, hub);
-  for (Index b : miss_hub) join(g, hub, b);
+  for (Index b : miss_hub) {
+    if (g.mark[b] != g.stamp) join(g, hub, b);
+  }
 }
 
 void merge(FillGraph& g, Index kept, Index gone) {
@@ -123,7 +136,7 @@ void merge(FillGraph& g, Index kept, Index gone) {
     --g.list[w].live;
   }
   absorb(g.variables, kept, gone);
-  g.degree[kept] -= g.fill[gone].weight;
+  if (!is_outer(g, kept)) g.degree[kept] -= g.fill[gone].weight;
   g.fill[kept].weight = g.variables.weight[kept];
   note_change(g, kept);
 }
@@ -169,13 +182,15 @@ graph::Adjacency upward(FillGraph& g) {
   return up;
 }
 
-// fill(v) if no two neighbours are adjacent.
+// fill(v) if no two neighbours are adjacent, but for outer ones.
 void bound_fill(FillGraph& g) {
   for (Index v = 0; v < static_cast<Index>(g.list.size()); ++v) {
     if (!g.variables.alive[v]) continue;
-    std::int64_t squares = 0;
-    for (Index w : neighbours(g, v)) squares += std::int64_t{g.fill[w].weight} * g.fill[w].weight;
-    g.fill[v].fill = (g.degree[v] * g.degree[v] - squares) / 2;
+    std::int64_t squares = 0;  // of neighbours that are not joined to any other
+    for (Index w : neighbours(g, v)) {
+      if (!is_outer(g, w)) squares += std::int64_t{g.fill[w].weight} * g.fill[w].weight;
+    }
+    g.fill[v].fill = (g.degree[v] * g.degree[v] - squares - g.around[v] * g.around[v]) / 2;
   }
 }
 
@@ -204,20 +219,18 @@ void count_fill(FillGraph& g, std::int64_t work_limit) {
   }
 }
 
-}  // namespace
-
-FillGraph fill_graph(const graph::Adjacency& graph, const std::vector<int>& dim,
-                     std::vector<int> stage, std::int64_t work_limit) {
+FillGraph made(const graph::Adjacency& graph, const std::vector<int>& dim, std::vector<int> stage,
+               Index inner, std::int64_t work_limit) {
   const Index n = graph.size();
   assert(static_cast<Index>(dim.size()) == n);
-  assert(stage.empty() || static_cast<Index>(stage.size()) == n);
   FillGraph g;
   g.variables = supervariables(dim);
   g.stage = std::move(stage);
-  g.stage.resize(n, 0);
+  g.inner = inner;
   g.pool = graph.items;
   g.fill.resize(n);
   g.degree.resize(n);
+  g.around.resize(n);
   g.hash.resize(n);
   g.list.resize(n);
   g.mark.assign(n, 0);
@@ -225,9 +238,11 @@ FillGraph fill_graph(const graph::Adjacency& graph, const std::vector<int>& dim,
     const auto size = static_cast<Index>(graph[v].size());
     g.list[v] = {graph.begin[v], size, size, size};
     g.fill[v] = {0, dim[v], 0};
-    g.hash[v] = mix(v);
+    g.hash[v] = is_outer(g, v) ? 0 : mix(v);
     for (Index w : graph[v]) {
+      assert(!is_outer(g, v) || !is_outer(g, w));
       g.degree[v] += dim[w];
+      if (is_outer(g, w)) g.around[v] += dim[w];
       g.hash[v] += mix(w);
     }
   }
@@ -237,6 +252,22 @@ FillGraph fill_graph(const graph::Adjacency& graph, const std::vector<int>& dim,
   bound_fill(g);
   count_fill(g, work_limit);
   return g;
+}
+
+}  // namespace
+
+FillGraph fill_graph(const graph::Adjacency& graph, const std::vector<int>& dim,
+                     std::vector<int> stage, std::int64_t work_limit) {
+  assert(stage.empty() || static_cast<Index>(stage.size()) == graph.size());
+  stage.resize(graph.size(), 0);
+  return made(graph, dim, std::move(stage), graph.size(), work_limit);
+}
+
+FillGraph fill_graph_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
+                             Index inner, std::int64_t work_limit) {
+  std::vector<int> stage(graph.size(), 1);
+  std::fill_n(stage.begin(), inner, 0);
+  return made(graph, dim, std::move(stage), inner, work_limit);
 }
 
 void eliminate(FillGraph& g, Index v) {

@@ -23,6 +23,11 @@
 // indistinguishable and merge; neighbours that have nothing outside N(v) are among them, so that
 // mass elimination needs no step of its own.
 //
+// A part of a graph is ordered by itself with the variables around it, which are eliminated later: its
+// *outer* variables. What they would be joined by costs the part nothing, so that any two of them count
+// as joined, without an edge in any list; they never go, nobody asks for their fill, and those of the
+// same inner neighbours merge.
+//
 // One unit of `work` is a list entry looked at.
 #pragma once
 
@@ -38,6 +43,7 @@ namespace sg::order {
 struct FillGraph {
   Supervariables variables;
   std::vector<int> stage;  // n: only variables of one stage merge
+  Index inner;             // of a part: variables from here on are outer
 
   // What an elimination touches of a variable, side by side.
   struct Fill {
@@ -47,6 +53,7 @@ struct FillGraph {
   };
   std::vector<Fill> fill;            // n
   std::vector<std::int64_t> degree;  // n: scalar dimension of the neighbours
+  std::vector<std::int64_t> around;  // n: that of the outer ones among them
   std::vector<std::uint64_t> hash;   // n: H(v)
 
   // Lists of neighbours in one pool. They may hold dead entries, which are dropped in passing.
@@ -74,6 +81,10 @@ struct FillGraph {
 // listing of all triangles: O(m^1.5) for m edges.
 FillGraph fill_graph(const graph::Adjacency& graph, const std::vector<int>& dim,
                      std::vector<int> stage, std::int64_t work_limit);
+// The same of a part: the first `inner` variables, and around them the others, none of which may be
+// adjacent to each other. Inner ones have stage 0, outer ones 1.
+FillGraph fill_graph_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
+                             Index inner, std::int64_t work_limit);
 
 // Takes v, which must be alive, and all that merged into it. Needs an exact graph.
 void eliminate(FillGraph& graph, Index v);

@@ -1,12 +1,16 @@
 // Nested dissection by METIS (Karypis, Kumar, SIAM J. Sci. Comput. 20, 1998), variables weighing
-// their dimension where dimensions differ. METIS draws from the C library's generator, which it
-// seeds itself: not to be called from two threads at once.
+// their dimension where dimensions differ, and separators for our own. METIS draws from the C library's
+// generator, which it seeds itself: one call at a time.
+#include "lib/order/metis.h"
+
 #include <metis.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 #include <string>
 
@@ -14,7 +18,7 @@
 #include "lib/order/parts.h"
 #include "lib/text/error.h"
 
-namespace sg::order::methods {
+namespace sg::order {
 namespace {
 
 static_assert(sizeof(idx_t) == sizeof(Index));
@@ -39,32 +43,64 @@ struct Said {
   bool anything() { return stream && std::fflush(stream) == 0 && size > 0; }
 };
 
-graph::Order order_part(Part& part, std::uint64_t seed) {
-  idx_t n = part.adjacency.size();
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_NUMBERING] = 0;
-  if (seed != 0) options[METIS_OPTION_SEED] = static_cast<idx_t>(seed % 0x7fffffff);
-  const bool alike = std::equal(part.dim.begin() + 1, part.dim.end(), part.dim.begin());
-  graph::Order order(n);
-  graph::Order position(n);
-  Said said;
-  const int status =
-      METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.items.data(),
-                   alike ? nullptr : part.dim.data(), options, order.data(), position.data());
+std::mutex one_call;
+
+void check(int status, Said& said) {
   if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
   // METIS catches SIGTERM while it works and calls it an error, without a word: it is for whoever would have caught it.
   if (status == METIS_ERROR && !said.anything()) std::raise(SIGTERM);
   if (status != METIS_OK) {
     throw text::computation_error("METIS failed (status " + std::to_string(status) + ")");
   }
+}
+
+std::array<idx_t, METIS_NOPTIONS> options_of(std::uint64_t seed) {
+  std::array<idx_t, METIS_NOPTIONS> options{};
+  METIS_SetDefaultOptions(options.data());
+  options[METIS_OPTION_NUMBERING] = 0;
+  if (seed != 0) options[METIS_OPTION_SEED] = static_cast<idx_t>(seed % 0x7fffffff);
+  return options;
+}
+
+graph::Order order_part(Part& part, std::uint64_t seed) {
+  idx_t n = part.adjacency.size();
+  auto options = options_of(seed);
+  const bool alike = std::equal(part.dim.begin() + 1, part.dim.end(), part.dim.begin());
+  graph::Order order(n);
+  graph::Order position(n);
+  const std::lock_guard lock(one_call);
+  Said said;
+  check(METIS_NodeND(&n, part.adjacency.begin.data(), part.adjacency.items.data(),
+                     alike ? nullptr : part.dim.data(), options.data(), order.data(),
+                     position.data()),
+        said);
   return order;
 }
 
 }  // namespace
 
+Separation metis_separation(const Piece& piece, std::uint64_t seed) {
+  // METIS reads these, and takes no const.
+  graph::Lists<> graph = piece.inside;
+  std::vector<int> weight = piece.inner_weight;
+  idx_t n = graph.size();
+  auto options = options_of(seed);
+  options[METIS_OPTION_UFACTOR] = 300;  // a side may have 1.3 times its half
+  idx_t size = 0;
+  std::vector<idx_t> side(n);
+  const std::lock_guard lock(one_call);
+  Said said;
+  check(METIS_ComputeVertexSeparator(&n, graph.begin.data(), graph.items.data(), weight.data(),
+                                     options.data(), &size, side.data()),
+        said);
+  return {side.begin(), side.end()};
+}
+
+namespace methods {
+
 graph::Order metis(const graph::Pattern& pattern, const OrderOptions& options) {
   return order_by_parts(pattern, [&](Part& part) { return order_part(part, options.seed); });
 }
 
-}  // namespace sg::order::methods
+}  // namespace methods
+}  // namespace sg::order

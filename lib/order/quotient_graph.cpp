@@ -44,6 +44,7 @@ std::int64_t weight(const QuotientGraph& g, const std::vector<Index>& variables)
 // outside[e] of every element that shares a variable with the front.
 void count_outside(QuotientGraph& g, const std::vector<Index>& front) {
   for (Index i : front) {
+    g.work += static_cast<std::int64_t>(g.edges[i].size() + g.elements[i].size());
     for (Index e : g.elements[i]) {
       if (!g.is_element[e]) continue;
       if (g.counted[e] != g.stamp) g.outside[e] = g.size[e];

@@ -42,6 +42,7 @@ struct QuotientGraph {
   std::vector<std::int64_t> degree;  // of a variable: bound from above
   std::vector<std::int64_t> fill;    // of a variable: bound from above
   std::vector<Index> changed;        // whose degree, fill or weight the last elimination changed
+  std::int64_t work = 0;             // list entries looked at
 
   std::vector<int> mark, counted;     // scratch, by `stamp`
   std::vector<std::int64_t> outside;  // d(L_e \ L_p), where counted

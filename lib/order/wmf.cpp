@@ -1,10 +1,12 @@
 #include "lib/order/wmf.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <numeric>
 #include <utility>
 
+#include "lib/order/dissect.h"
 #include "lib/order/fill_graph.h"
 #include "lib/order/methods.h"
 #include "lib/order/min_queue.h"
@@ -104,9 +106,11 @@ void run(Graph& g, const Preference& preference, Predicate enough) {
 
 // Eliminates the rest of g by bounds. Its ec is one from above: mass elimination puts variables
 // before their pivot whose own fronts it does not know.
-Supervariables run_by_bounds(FillGraph&& g, const Preference& preference, elim::Wide limit) {
+Supervariables run_by_bounds(FillGraph&& g, const Preference& preference,
+                             const GreedyOptions& options) {
   QuotientGraph rest = quotient_graph(std::move(g));
-  run(rest, preference, [&](Index) { return rest.variables.ec > limit; });
+  run(rest, preference,
+      [&](Index) { return rest.variables.ec > options.limit || rest.work > options.bounded_work; });
   return std::move(rest.variables);
 }
 
@@ -163,27 +167,111 @@ GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& 
     result.order = std::move(g.variables.order);
     return result;
   }
-  Supervariables variables = run_by_bounds(std::move(g), preference, options.limit);
+  Supervariables variables = run_by_bounds(std::move(g), preference, options);
   result.ec = variables.ec;
-  if (result.ec > options.limit) return result;
+  if (result.ec > options.limit || variables.order.size() < pattern.dim.size()) return result;
   result.order = std::move(variables.order);
   result.ec = elim::elimination_complexity(pattern, result.order);
   return result;
 }
 
-graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
-  const graph::Adjacency graph = graph::adjacency(pattern);
-  GreedyOptions greedy;
-  greedy.stage = stages(pattern.variables(), options.last);
-  greedy.seed = options.seed;
+namespace {
+
+// Exact EC of a part's order. What is around it is a clique as good as any: it comes last.
+elim::Wide ec_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
+                      const graph::Order& order) {
+  graph::Pattern pattern{dim, {}};
+  for (Index v = 0; v < graph.size(); ++v) {
+    for (const Index u : graph[v]) {
+      if (u > v) pattern.rows.add(std::array{v, u});
+    }
+  }
+  graph::Order all = order;
+  for (auto v = static_cast<Index>(order.size()); v < graph.size(); ++v) all.push_back(v);
+  const elim::Symbolic symbolic = elim::symbolic(pattern, all);
+  elim::Wide ec = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    ec += elim::elimination_cost(symbolic.dim[k], symbolic.count[k]);
+  }
+  return ec;
+}
+
+}  // namespace
+
+GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
+                                 Index inner) {
+  const std::int64_t work_limit = GreedyOptions{}.exact_work * entries(graph);
+  const Preference preference = preferences(graph.size(), {});
+  FillGraph g = fill_graph_of_part(graph, dim, inner, work_limit);
+  const auto all_done = [&](Index next) { return next >= inner; };
+  if (g.exact) {
+    run(g, preference, [&](Index next) {
+      return all_done(next) ||
+             static_cast<double>(g.work) + least_work(g, next) > static_cast<double>(work_limit);
+    });
+  }
+  if (static_cast<Index>(g.variables.order.size()) == inner) {
+    return {std::move(g.variables.order), g.variables.ec, g.work};
+  }
+  GreedyResult result{{}, 0, g.work};
+  QuotientGraph rest = quotient_graph(std::move(g));
+  run(rest, preference, all_done);
+  result.order = std::move(rest.variables.order);
+  result.ec = ec_of_part(graph, dim, result.order);
+  return result;
+}
+
+namespace {
+
+// The better of the greedy passes that the size of the graph affords.
+GreedyResult minimum_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
+                          GreedyOptions greedy) {
   GreedyResult best = greedy_fill(pattern, graph, greedy);
-  if (!options.last.empty()) return std::move(best.order);
+  if (best.order.empty()) return best;
   const std::int64_t size = entries(graph);
   if (best.work <= 25 * size) {
     try_cheap(pattern, graph, greedy, best);
   } else if (size > 20 * std::int64_t{graph.size()} && best.work <= 100 * size) {
     try_bounds(pattern, graph, greedy, best);
   }
+  return best;
+}
+
+GreedyResult by_dissection(const graph::Pattern& pattern, const graph::Adjacency& graph,
+                           std::uint64_t seed) {
+  GreedyResult result{dissect(graph, pattern.dim, seed), 0, 0};
+  result.ec = elim::elimination_complexity(pattern, result.order);
+  return result;
+}
+
+// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, minimum fill is not on a
+// graph of so many entries.
+constexpr std::int64_t narrow = 1000, wide = 4000, large = 30000;
+// List entries that a pass may look at for every entry of a large graph.
+constexpr std::int64_t most_work = 20;
+
+}  // namespace
+
+graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
+  const graph::Adjacency graph = graph::adjacency(pattern);
+  GreedyOptions greedy;
+  greedy.seed = options.seed;
+  if (!options.last.empty()) {
+    greedy.stage = stages(pattern.variables(), options.last);
+    return greedy_fill(pattern, graph, greedy).order;
+  }
+  const std::int64_t size = entries(graph);
+  if (size <= large) {
+    GreedyResult best = minimum_fill(pattern, graph, greedy);
+    if (best.ec > static_cast<elim::Wide>(narrow * size)) {
+      keep_better(best, by_dissection(pattern, graph, options.seed));
+    }
+    return std::move(best.order);
+  }
+  GreedyResult best = by_dissection(pattern, graph, options.seed);
+  if (best.ec > static_cast<elim::Wide>(wide * size)) return std::move(best.order);
+  greedy.bounded_work = most_work * size;  // hubs are in every front, and have long lists
+  keep_better(best, minimum_fill(pattern, graph, greedy));
   return std::move(best.order);
 }
 

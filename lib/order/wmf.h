@@ -26,8 +26,11 @@
 // around. Ties go to the lowest index, or by seed.
 //
 // No greedy is best everywhere. Where the pass was quick there is time to try plain fill and AMD,
-// and on a dense graph a pass by bounds alone (below); the least EC wins. With `last` it is one pass:
-// that form orders parts of a graph anew at every step of a replay, where time is short.
+// and on a dense graph a pass by bounds alone (below); the least EC wins. Graphs that are wide in all
+// directions are parted by separators first, and the greedy orders what these leave (dissect.h): there
+// it is that order or the greedy's, whichever costs less, or on large ones, that order at once. With
+// `last` it is one pass: that form orders parts of a graph anew at every step of a replay, where time is
+// short.
 //
 // Exactness. While the graph is small enough, fill is exact, kept up to date edge by edge
 // (fill_graph.h). When the work for that has grown past a fixed multiple of the size of the input,
@@ -47,6 +50,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "lib/elim/score.h"
@@ -64,11 +68,13 @@ struct GreedyOptions {
   double jitter = 0;       // scores are multiplied by 1 + jitter u, u in [0, 1) drawn per variable
   std::int64_t exact_work = 120;  // list entries looked at per variable and adjacency entry, in the
                                   // exact part
-  elim::Wide limit = ~elim::Wide{0};  // give up as soon as EC is above
+  // Give up as soon as EC is above, or the bounded part has looked at more list entries.
+  elim::Wide limit = ~elim::Wide{0};
+  std::int64_t bounded_work = std::numeric_limits<std::int64_t>::max();
 };
 
 struct GreedyResult {
-  graph::Order order;     // empty if EC went above the limit
+  graph::Order order;     // empty if it was given up
   elim::Wide ec = 0;      // of `order`
   std::int64_t work = 0;  // list entries looked at in the exact part
 };
@@ -77,12 +83,17 @@ struct GreedyResult {
 GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
                          const GreedyOptions& options);
 
+// One pass over a part of a graph (fill_graph.h): its first `inner` variables. The order is of
+// these alone, and so is its EC. Neither seed nor stage.
+GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
+                                 Index inner);
+
 struct WmfOptions {
   std::vector<Index> last;  // to be eliminated after all others
   std::uint64_t seed = 0;   // as in GreedyOptions
 };
 
-// The better of the passes that the size of the graph affords.
+// The best of the passes and the dissection that the graph's size and width afford.
 graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options = {});
 
 }  // namespace sg::order

@@ -9,14 +9,19 @@
 #include "lib/text/error.h"
 
 namespace sg::score {
+
+std::optional<SE3> pose_of(graph::Space space, const std::vector<double>& numbers) {
+  if (space == graph::Space::se2) return geometry::in_space(geometry::se2(numbers.data()));
+  if (graph::has_quaternion(space)) return normalized(geometry::se3(numbers.data()));
+  return {};
+}
+
 namespace {
 
 SE3 pose_of(const Graph& graph, Index v, const std::vector<double>& n) {
-  const graph::Space space = graph.type_of_vertex(v).space;
   if (!std::ranges::all_of(n, [](double x) { return std::isfinite(x); }))
     throw graph::error_at(graph, graph.vertex_line[v], "a number is not finite");
-  if (space == graph::Space::se2) return geometry::in_space(geometry::se2(n.data()));
-  if (graph::has_quaternion(space)) return normalized(geometry::se3(n.data()));
+  if (const auto pose = score::pose_of(graph.type_of_vertex(v).space, n)) return *pose;
   throw graph::error_at(graph, graph.vertex_line[v],
                         graph.type_of_vertex(v).tag + " is no pose that a trajectory can have");
 }

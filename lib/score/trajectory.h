@@ -21,6 +21,9 @@ struct Trajectory {
 // edges-only file: as composed along its edges. Throws an input Error for poses of another kind.
 Trajectory trajectory(const Graph& graph);
 
+// The pose that these numbers of a VERTEX line of this space are; nothing where a trajectory has none of that kind.
+std::optional<SE3> pose_of(graph::Space space, const std::vector<double>& numbers);
+
 // Whether no pose leaves z = 0, nor turns about another axis than z.
 bool is_planar(const Trajectory& trajectory);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -18,6 +17,7 @@ constexpr double coarse = 0.05;  // tolerance of the rounds but the last
 constexpr int coarse_iterations = 10;
 constexpr int most_rounds = 200;
 constexpr int last_rounds = 10;  // with weights of 0 and 1
+constexpr double near = 5;       // u of what is taken back at last, to see
 constexpr double replan =
     0.1;  // of the doubtful edges that a plan has: so many without use call for the next
 
@@ -164,14 +164,12 @@ void settle_landmarks(Run& run, const graph::Lists<>& edges_of) {
   }
 }
 
-// Whether the weights are no longer those they were.
-bool reweigh(Run& run, double mu) {
-  const std::vector<double> u = distrust(run), before = run.result.weight;
+// Gives the doubtful edges weights by their u.
+void reweigh(Run& run, const auto& weight_of_u) {
+  const std::vector<double> u = distrust(run);
   for (std::size_t e = 0; e < u.size(); ++e) {
-    if (run.doubts(static_cast<Index>(e)))
-      run.result.weight[e] = std::isinf(mu) ? (u[e] <= 1 ? 1 : 0) : weight_of(u[e], mu);
+    if (run.doubts(static_cast<Index>(e))) run.result.weight[e] = weight_of_u(u[e]);
   }
-  return run.result.weight != before;
 }
 
 bool is_decided(const std::vector<double>& weight) {
@@ -188,10 +186,47 @@ void narrow(Run& run) {
   if (most <= 1) return;
   double mu = 1 / (2 * most - 1);
   for (int k = 0; k < most_rounds && !run.result.batch.stopped; ++k, mu *= growth) {
-    reweigh(run, mu);
+    reweigh(run, [mu](double u) { return weight_of(u, mu); });
     if (k > 0 && is_decided(run.result.weight)) return;
     solve_round(run, coarse, coarse_iterations);
   }
+}
+
+// The rounds with weights of 0 and 1, until they stay.
+void decide(Run& run, const graph::Lists<>& edges_of) {
+  for (int k = 0; k < last_rounds && !run.result.batch.stopped; ++k) {
+    settle_landmarks(run, edges_of);
+    const std::vector<double> before = run.result.weight;
+    reweigh(run, [](double u) { return u <= 1 ? 1 : 0; });
+    if (k > 0 && run.result.weight == before) return;
+    solve_round(run, 0, run.options.batch.iterations);
+  }
+}
+
+double truncated_sum(const Run& run) {
+  double sum = 0;
+  for (Index e = 0; e < run.problem.graph->edges(); ++e) {
+    const double s = factor::edge_chi2(run.problem, run.values, e);
+    sum += run.doubts(e) ? std::min(s, run.options.bound[e]) : s;
+  }
+  return sum;
+}
+
+// Where a few true edges alone hold a part, leaving them out bends it, and none of them is believed again by itself. So
+// those that are not far off are taken back together; what comes of it stays if the sum is lower.
+void look_again(Run& run, const graph::Lists<>& edges_of) {
+  const factor::Values values = run.values;
+  const GncResult decided = run.result;
+  const double sum = truncated_sum(run);
+  reweigh(run, [](double u) { return u <= near ? 1 : 0; });
+  if (run.result.weight == decided.weight) return;
+  solve_round(run, 0, run.options.batch.iterations);
+  decide(run, edges_of);
+  if (truncated_sum(run) < sum) return;
+  const int iterations = run.result.batch.iterations;
+  run.values = values;
+  run.result = decided;
+  run.result.batch.iterations = iterations;
 }
 
 }  // namespace
@@ -199,19 +234,14 @@ void narrow(Run& run) {
 GncResult graduate(const factor::Problem& problem, const Planner& plan, const GncOptions& options,
                    factor::Values& values, const std::function<void(const Iteration&)>& report) {
   Run run{problem, plan, options, values, report};
-  BatchResult& batch = run.result.batch;
   run.result.weight.assign(options.doubtful.size(), 1.0);
   const double start = factor::chi2(problem, values);
-  narrow(run);
   const graph::Lists<> edges_of =
       graph::transpose(problem.graph->edge_vertices, problem.graph->vertices());
-  for (int k = 0; k < last_rounds && !batch.stopped; ++k) {
-    settle_landmarks(run, edges_of);
-    const bool changed = reweigh(run, std::numeric_limits<double>::infinity());
-    if (k > 0 && !changed) break;
-    solve_round(run, 0, options.batch.iterations);
-  }
-  batch.initial_chi2 = start;
+  narrow(run);
+  decide(run, edges_of);
+  if (!run.result.batch.stopped) look_again(run, edges_of);
+  run.result.batch.initial_chi2 = start;
   return std::move(run.result);
 }
 

@@ -11,6 +11,7 @@
 // with the least squares of all edges, we with the weights at the start. Rounds with weights of 0 and 1 end it, until they
 // stay: min over x and min over w in turn, each of which lowers the sum; and before each, landmarks move to where one of
 // their edges puts them if that lowers it, too (random sample consensus with all samples of one edge; Fischler, Bolles 1981).
+// At last the edges that were left out and are not far off are taken back together, and stay if that lowers the sum.
 #pragma once
 
 #include <functional>

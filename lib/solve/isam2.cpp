@@ -26,6 +26,8 @@ Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options) {
   isam.floor.assign(problem.step_at.back(), 0.0);
   isam.moved.assign(n, false);
   isam.unseen.assign(n, false);
+  isam.leaving.assign(n, false);
+  isam.pinned.assign(n, false);
   isam.row_update.assign(pattern.rows.size(), -1);
   isam.gram_at.assign(1, 0);
   for (Index r = 0; r < pattern.rows.size(); ++r) {
@@ -38,20 +40,25 @@ Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options) {
   return isam;
 }
 
+Index begin_update(Isam2& isam, std::span<const Index> rows) {
+  ++isam.updates;
+  isam.work.marked.clear();
+  const Index moved = relinearize(isam);
+  for (Index r : rows) {
+    linearize_factor(isam, r);
+    for (Index j : pattern_of(isam).rows[r]) mark_to_root(isam, isam.tree.variable_clique[j]);
+  }
+  return moved;
+}
+
 Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<const Index> rows) {
   assert(std::ranges::all_of(variables, [&](Index j) { return isam.tree.variable_clique[j] < 0; }));
   assert(std::ranges::all_of(rows, [&](Index r) {
     return isam.tree.row_clique[r] < 0 && !pattern_of(isam).rows[r].empty();
   }));
   Isam2Report report;
-  ++isam.updates;
-  isam.work.marked.clear();
-  report.relinearized = relinearize(isam);
-  for (Index r : rows) {
-    linearize_factor(isam, r);
-    for (Index j : pattern_of(isam).rows[r]) mark_to_root(isam, isam.tree.variable_clique[j]);
-  }
-  redo_top(isam, variables, rows, report);
+  report.relinearized = begin_update(isam, rows);
+  redo_top(isam, variables, rows, plan_top(isam, variables, rows), report);
   if (report.undetermined.empty()) report.finite = solve_down(isam);
   return report;
 }

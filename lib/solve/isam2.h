@@ -90,6 +90,9 @@ struct Isam2 {
   std::vector<double> floor;      // least pivot of every scalar
   std::vector<bool> moved;        // is in `candidates`
   std::vector<bool> unseen;       // landmark with rows left out (landmark_point.h)
+  std::vector<bool> leaving;      // with this update (isam2_leave.h)
+  std::vector<bool> pinned;       // keeps its linearization point (isam2_leave.h)
+  std::vector<Index> past;        // cliques kept of variables that have left, in that order
   std::vector<Index> candidates;  // with a step of beta or more, or unseen
 
   // By row of the problem's pattern.
@@ -109,6 +112,7 @@ struct Isam2 {
     std::vector<Run> runs;
     std::vector<Index> edges, stack;
     std::vector<double> numbers, floors;
+    std::vector<double> rhs;  // zeros between calls
   } work;
 };
 
@@ -120,6 +124,7 @@ Isam2 make_isam2(const factor::Problem&&, const Isam2Options&) = delete;
 struct Isam2Report {
   Index reeliminated = 0;  // variables, new ones included
   Index relinearized = 0;  // variables
+  elim::Wide ec = 0;       // sum over the cliques that were eliminated of d_f (d_f + d_s)^2
   // The smoother is of no use after either of these.
   std::vector<Index> undetermined;  // variables whose pivot vanished
   bool finite = true;               // the estimate

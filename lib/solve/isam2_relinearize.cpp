@@ -73,6 +73,7 @@ void move_points(Isam2& isam) {
   moved.clear();
   for (Index j : isam.candidates) {
     isam.moved[j] = false;
+    if (isam.pinned[j] || isam.tree.variable_clique[j] < 0) continue;
     if (largest(isam, j) < isam.options.relinearize_threshold && !isam.unseen[j]) continue;
     isam.unseen[j] = false;
     move_point(isam, j);

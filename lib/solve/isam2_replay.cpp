@@ -66,9 +66,23 @@ bool determined_at_start(const Isam2Replay& replay, Snapshot& snapshot) {
   return null_space(snapshot.system).dimension == 0;
 }
 
-// Elimination names the last variables of what is free to move; the null space knows them all.
-[[noreturn]] void throw_singular(const Isam2Replay& replay, Index step) {
+text::Error singular(Index step, const NullSpace& open, std::span<const Id> id) {
+  return text::computation_error("step " + std::to_string(step) + ": " +
+                                 singular_error(open, id).what());
+}
+
+// Elimination names the last variables of what is free to move; the null space knows them all, where all rows are
+// there still.
+[[noreturn]] void throw_singular(const Isam2Replay& replay, Index step, const Isam2Report& report) {
   const factor::Problem& problem = *replay.problem;
+  if (std::ranges::any_of(replay.isam.pinned, std::identity())) {
+    std::vector<Id> id;
+    for (Index v : problem.variables.variable_vertex) id.push_back(problem.graph->id[v]);
+    NullSpace open;
+    open.dimension = 1;
+    open.undetermined = report.undetermined;
+    throw singular(step, open, id);
+  }
   Snapshot snapshot;
   take_snapshot(replay.isam, true, snapshot);
   std::vector<Id> id;
@@ -77,8 +91,7 @@ bool determined_at_start(const Isam2Replay& replay, Snapshot& snapshot) {
   }
   const NullSpace open = null_space(snapshot.system);
   if (open.dimension > 0 && determined_at_start(replay, snapshot)) throw diverged(step);
-  throw text::computation_error("step " + std::to_string(step) + ": " +
-                                singular_error(open, id).what());
+  throw singular(step, open, id);
 }
 
 }  // namespace
@@ -101,14 +114,13 @@ Isam2Replay make_isam2_replay(const factor::Problem& problem, const Isam2Options
   return result;
 }
 
-Isam2Report replay_step(Isam2Replay& replay, Index k) {
+Entering enter(Isam2Replay& replay, std::span<const Index> vertices, std::span<const Index> edges) {
   const factor::Problem& problem = *replay.problem;
   const Graph& graph = *problem.graph;
-  const auto edges = replay.edges[k];
-  std::vector<Index> variables;
-  std::vector<Index> rows;
+  Entering entering;
+  auto& [variables, rows] = entering;
   for (const graph::Role role : {graph::Role::pose, graph::Role::landmark, graph::Role::other}) {
-    for (Index v : replay.vertices[k]) {
+    for (Index v : vertices) {
       if (graph.role(v) != role) continue;
       start_vertex(replay, v, edges);
       const Index j = problem.variables.vertex_variable[v];
@@ -120,9 +132,18 @@ Isam2Report replay_step(Isam2Replay& replay, Index k) {
   for (Index e : edges) {
     if (!problem.variables.pattern.rows[e].empty()) rows.push_back(e);
   }
-  const Isam2Report report = update(replay.isam, variables, rows);
-  if (!report.undetermined.empty()) throw_singular(replay, k);
+  return entering;
+}
+
+void check_solved(const Isam2Replay& replay, Index k, const Isam2Report& report) {
+  if (!report.undetermined.empty()) throw_singular(replay, k, report);
   if (!report.finite) throw diverged(k);
+}
+
+Isam2Report replay_step(Isam2Replay& replay, Index k) {
+  const Entering entering = enter(replay, replay.vertices[k], replay.edges[k]);
+  const Isam2Report report = update(replay.isam, entering.variables, entering.rows);
+  check_solved(replay, k, report);
   return report;
 }
 

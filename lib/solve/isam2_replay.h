@@ -31,6 +31,17 @@ Isam2Replay make_isam2_replay(const factor::Problem& problem, const Isam2Options
                               int min_obs, bool start_from_file);
 Isam2Replay make_isam2_replay(const factor::Problem&&, const Isam2Options&, int, bool) = delete;
 
+// What enters: vertices with their starts, edges with rows of their own.
+struct Entering {
+  std::vector<Index> variables, rows;
+};
+// Starts vertices from what is there and these edges, poses first; rows are those of edges that hold a variable,
+// with the gauge's where the variable that it holds enters.
+Entering enter(Isam2Replay& replay, std::span<const Index> vertices, std::span<const Index> edges);
+
+// Throws the Error that replay_step throws where step k could not be solved.
+void check_solved(const Isam2Replay& replay, Index k, const Isam2Report& report);
+
 // Step k, after 0 .. k - 1. Throws a computation Error that names the step and the undetermined
 // vertices if it cannot be solved, and those of check_row (linearize.h).
 Isam2Report replay_step(Isam2Replay& replay, Index k);

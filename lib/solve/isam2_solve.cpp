@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/solve/isam2_leave.h"
 #include "lib/solve/isam2_steps.h"
 
 namespace sg::solve {
@@ -57,16 +58,23 @@ bool update_estimate(Isam2& isam, Index j) {
                      [](double number) { return std::isfinite(number); });
 }
 
-// Takes the solution in work.numbers over.
-bool accept(Isam2& isam, const Isam2Clique& clique) {
+// The frontal variables' steps out of work.numbers, and their estimates. False if one is not finite.
+bool take_over(Isam2& isam, const Isam2Clique& clique) {
   const double* x = isam.work.numbers.data();
   bool finite = true;
   for (Index j : frontals_of(isam.tree, clique)) {
     const int dim = pattern_of(isam).dim[j];
     std::copy_n(x, dim, isam.step.begin() + isam.problem->step_at[j]);
     x += dim;
-    tell(isam, j);
     finite &= update_estimate(isam, j);
+  }
+  return finite;
+}
+
+bool accept(Isam2& isam, const Isam2Clique& clique) {
+  const bool finite = take_over(isam, clique);
+  for (Index j : frontals_of(isam.tree, clique)) {
+    tell(isam, j);
     if (largest(isam, j) >= isam.options.relinearize_threshold) propose(isam, j);
   }
   return finite;
@@ -85,6 +93,7 @@ bool solve_down(Isam2& isam) {
   while (!stack.empty()) {
     const Isam2Clique& clique = isam.tree.cliques[stack.back()];
     stack.pop_back();
+    if (is_prior(clique)) continue;
     const bool made = clique.made == isam.updates;
     if (!made && !separator_changed(isam, clique)) continue;
     const double change = solve(isam, clique, kernel);
@@ -93,6 +102,14 @@ bool solve_down(Isam2& isam) {
       stack.push_back(child);
   }
   return finite;
+}
+
+void smooth_past(Isam2& isam) {
+  const Kernels& kernel = kernels();
+  for (auto c = isam.past.rbegin(); c != isam.past.rend(); ++c) {
+    solve(isam, isam.tree.cliques[*c], kernel);
+    take_over(isam, isam.tree.cliques[*c]);
+  }
 }
 
 }  // namespace sg::solve

@@ -1,9 +1,14 @@
 // The steps of an update (isam2.h), each in a file of its name.
 #pragma once
 
+#include "lib/solve/clique_tree.h"
 #include "lib/solve/isam2.h"
 
 namespace sg::solve {
+
+// Steps 1 and 2 (isam2.cpp): linearizes the new rows and what has moved, and marks the cliques that this concerns.
+// Returns how many variables moved.
+Index begin_update(Isam2& isam, std::span<const Index> new_rows);
 
 // Step 2, algorithm 5 of the paper (isam2_relinearize.cpp).
 
@@ -23,8 +28,13 @@ void mark_to_root(Isam2& isam, Index c);
 // and the new ones again: rows that the cliques held, the new ones, and what the orphans pass up. The
 // new cliques are left in work.made, children before parents. Reports reeliminated and undetermined
 // variables.
+//
+// The plan says which cliques that would make, in numbers of work.variables, and changes nothing in the
+// tree; it marks all cliques where many are. Where more cliques have been marked since, another is to be made.
+CliqueTree plan_top(Isam2& isam, std::span<const Index> new_variables,
+                    std::span<const Index> new_rows);
 void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const Index> new_rows,
-              Isam2Report& report);
+              const CliqueTree& plan, Isam2Report& report);
 
 // Step 3c, algorithm 2 for all frontal variables at once (isam2_eliminate.cpp). Sums clique c's front
 // up from its rows and its children's updates, and eliminates its frontal variables. Appends those of

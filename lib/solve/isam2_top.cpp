@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "lib/solve/clique_tree.h"
+#include "lib/solve/isam2_leave.h"
 #include "lib/solve/isam2_steps.h"
 
 namespace sg::solve {
@@ -13,35 +14,31 @@ void mark_all_if_many(Isam2& isam) {
   Index redone = 0;
   for (Index c : isam.work.marked) redone += isam.tree.cliques[c].frontals;
   if (redone <= reorder_all * isam.variables) return;
-  for (Index c : isam.tree.variable_clique) mark_to_root(isam, c);
-}
-
-// Cuts the subtrees below the marked cliques off.
-void cut_orphans(Isam2& isam) {
-  Isam2Tree& tree = isam.tree;
-  isam.work.orphans.clear();
-  for (Index c : isam.work.marked) {
-    for (Index child = tree.cliques[c].first_child; child >= 0;) {
-      const Index next = tree.cliques[child].next;
-      if (tree.cliques[child].marked != isam.updates) {
-        unlink(tree, child);
-        isam.work.orphans.push_back(child);
-      }
-      child = next;
-    }
+  for (Index c = 0; c < static_cast<Index>(isam.tree.cliques.size()); ++c) {
+    const Isam2Clique& clique = isam.tree.cliques[c];
+    if (is_there(clique) && !is_prior(clique)) mark_to_root(isam, c);
   }
 }
 
-// Adds what the marked cliques held to the variables and rows of the top, and takes them out.
-void take_out(Isam2& isam) {
+// The variables and rows of the top: the new ones and what the marked cliques hold. The orphans: what hangs below them.
+void gather_top(Isam2& isam, std::span<const Index> new_variables,
+                std::span<const Index> new_rows) {
   Isam2::Work& work = isam.work;
+  work.variables.assign(new_variables.begin(), new_variables.end());
+  work.rows.assign(new_rows.begin(), new_rows.end());
+  work.orphans.clear();
   for (Index c : work.marked) {
     const Isam2Clique& clique = isam.tree.cliques[c];
     const auto frontals = frontals_of(isam.tree, clique);
     const auto rows = rows_of(isam.tree, clique);
-    work.variables.insert(work.variables.end(), frontals.begin(), frontals.end());
-    work.rows.insert(work.rows.end(), rows.begin(), rows.end());
-    remove_clique(isam.tree, c);
+    // Some may have been given back (isam2_admission.h).
+    std::ranges::copy_if(frontals, std::back_inserter(work.variables),
+                         [&](Index j) { return isam.tree.variable_clique[j] >= 0; });
+    std::ranges::copy_if(rows, std::back_inserter(work.rows),
+                         [&](Index r) { return isam.tree.row_clique[r] >= 0; });
+    for (Index child = clique.first_child; child >= 0; child = isam.tree.cliques[child].next) {
+      if (isam.tree.cliques[child].marked != isam.updates) work.orphans.push_back(child);
+    }
   }
   std::ranges::sort(work.variables);
   std::ranges::sort(work.rows);
@@ -67,17 +64,30 @@ void make_pattern(Isam2& isam) {
   for (Index c : work.orphans) add(separators_of(isam.tree, isam.tree.cliques[c]));
 }
 
+void take_out(Isam2& isam) {
+  for (Index c : isam.work.orphans) unlink(isam.tree, c);
+  for (Index c : isam.work.marked) remove_clique(isam.tree, c);
+}
+
 // The new factors' variables go last, where the next ones will be close to the root.
 graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
   Isam2::Work& work = isam.work;
   order::OrderOptions options;
   for (Index r : new_rows) {
-    for (Index j : pattern_of(isam).rows[r]) options.last.push_back(work.local[j]);
+    for (Index j : pattern_of(isam).rows[r]) {
+      if (!isam.leaving[j]) options.last.push_back(work.local[j]);
+    }
   }
   std::ranges::sort(options.last);
   const auto doubles = std::ranges::unique(options.last);
   options.last.erase(doubles.begin(), doubles.end());
-  return order::elimination_order(isam.options.ordering, work.pattern, options);
+  std::vector<Index> first;
+  for (Index k = 0; k < work.pattern.variables(); ++k) {
+    if (isam.leaving[work.variables[k]]) first.push_back(k);
+  }
+  return first.empty()
+             ? order::elimination_order(isam.options.ordering, work.pattern, options)
+             : order_after(isam.options.ordering, work.pattern, first, std::move(options.last));
 }
 
 // Adds clique k of the top's tree to the smoother's: work.variables and work.rows say what its
@@ -126,20 +136,25 @@ void adopt_cliques(Isam2& isam, const CliqueTree& top) {
 
 }  // namespace
 
-void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const Index> new_rows,
-              Isam2Report& report) {
-  Isam2::Work& work = isam.work;
+CliqueTree plan_top(Isam2& isam, std::span<const Index> new_variables,
+                    std::span<const Index> new_rows) {
   mark_all_if_many(isam);
+  gather_top(isam, new_variables, new_rows);
+  make_pattern(isam);
+  return clique_tree(isam.work.pattern, order_top(isam, new_rows), false);
+}
+
+void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const Index> new_rows,
+              const CliqueTree& plan, Isam2Report& report) {
   isam.variables += static_cast<Index>(new_variables.size());
   isam.rows += static_cast<Index>(new_rows.size());
-  work.variables.assign(new_variables.begin(), new_variables.end());
-  work.rows.assign(new_rows.begin(), new_rows.end());
-  cut_orphans(isam);
+  report.reeliminated = static_cast<Index>(isam.work.variables.size());
   take_out(isam);
-  report.reeliminated = static_cast<Index>(work.variables.size());
-  make_pattern(isam);
-  adopt_cliques(isam, clique_tree(work.pattern, order_top(isam, new_rows), false));
-  for (Index c : work.made) eliminate_clique(isam, c, report.undetermined);
+  adopt_cliques(isam, plan);
+  for (Index c : isam.work.made) {
+    report.ec += static_cast<elim::Wide>(isam.tree.cliques[c].ec);
+    eliminate_clique(isam, c, report.undetermined);
+  }
   std::ranges::sort(report.undetermined);
 }
 

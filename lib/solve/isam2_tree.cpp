@@ -32,7 +32,7 @@ Front front_of(Isam2Tree& tree, const Isam2Clique& c) {
 }
 
 Index add_clique(Isam2Tree& tree, const Isam2Clique& sizes) {
-  assert(sizes.frontals > 0 && sizes.f >= sizes.frontals && sizes.s >= sizes.separators);
+  assert(sizes.made >= 0 && sizes.f >= sizes.frontals && sizes.s >= sizes.separators);
   const Index c = free_place(tree);
   Isam2Clique& clique = tree.cliques[c];
   clique = sizes;
@@ -41,7 +41,7 @@ Index add_clique(Isam2Tree& tree, const Isam2Clique& sizes) {
     tree.lists.resize(2 * tree.list_pool.end());
   clique.numbers = tree.number_pool.take(number_size(clique));
   tree.ec_bt += static_cast<elim::Wide>(clique.ec);
-  ++tree.count;
+  if (!is_prior(clique)) ++tree.count;
   return c;
 }
 
@@ -49,10 +49,16 @@ void grow_numbers(Isam2Tree& tree) {
   tree.numbers.grow(tree.number_pool.end());
 }
 
-void remove_clique(Isam2Tree& tree, Index c) {
-  const Isam2Clique& clique = tree.cliques[c];
+void shelve_clique(Isam2Tree& tree, Index c) {
+  Isam2Clique& clique = tree.cliques[c];
   tree.ec_bt -= static_cast<elim::Wide>(clique.ec);
-  --tree.count;
+  if (!is_prior(clique)) --tree.count;
+  clique.made = -1;
+}
+
+void remove_clique(Isam2Tree& tree, Index c) {
+  shelve_clique(tree, c);
+  const Isam2Clique& clique = tree.cliques[c];
   tree.list_pool.give(clique.lists, list_size(clique));
   tree.number_pool.give(clique.numbers, number_size(clique));
   tree.free.push_back(c);

@@ -4,6 +4,9 @@
 // each in elimination order, then its factors) lie side by side in `lists`, its numbers (front.h: l,
 // then u, which is what it passes to its parent) in `numbers`; blocks of cliques that go serve those
 // that come (pool.h). Children of a clique are a linked list, the latest first.
+//
+// A clique without frontal variables is a prior: what variables that have left (isam2_leave.h) passed
+// to its separator. It stands below a clique, is never taken out, and is not counted.
 #pragma once
 
 #include <cstdint>
@@ -49,6 +52,14 @@ struct Isam2Tree {
   elim::Wide ec_bt = 0;  // sum over them of d_f (d_f + d_s)^2
 };
 
+inline bool is_prior(const Isam2Clique& c) {
+  return c.frontals == 0;
+}
+// Whether the place holds one.
+inline bool is_there(const Isam2Clique& c) {
+  return c.made >= 0;
+}
+
 inline std::span<Index> lists_of(Isam2Tree& tree, const Isam2Clique& c) {
   return std::span(tree.lists).subspan(c.lists, c.frontals + c.separators + c.rows);
 }
@@ -70,6 +81,8 @@ void grow_numbers(Isam2Tree& tree);
 
 // Gives back what a clique without a parent held.
 void remove_clique(Isam2Tree& tree, Index c);
+// It is no part of the tree any more, but keeps its lists and numbers.
+void shelve_clique(Isam2Tree& tree, Index c);
 
 // Puts a clique without a parent below one (nothing for -1), and takes it away from there.
 void link(Isam2Tree& tree, Index c, Index parent);

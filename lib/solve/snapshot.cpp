@@ -26,6 +26,11 @@ void take_patterns(const Isam2& isam, Snapshot& snapshot) {
     snapshot.row.push_back(r);
   }
   if (isam.problem->held < 0) snapshot.anchored = pattern;
+  for (const Isam2Clique& c : isam.tree.cliques) {
+    if (!is_there(c) || !is_prior(c)) continue;
+    for (Index j : separators_of(isam.tree, c)) pattern.rows.items.push_back(number[j]);
+    pattern.rows.close();
+  }
 }
 
 }  // namespace

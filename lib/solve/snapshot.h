@@ -16,7 +16,7 @@ struct Snapshot {
 
   std::vector<Index> variable;  // of the problem, ascending
   std::vector<Index> row;       // of the problem, by row of `anchored`
-  graph::Pattern pattern;       // of the edges, as a score has it
+  graph::Pattern pattern;       // of the edges, as a score has it, then of the tree's priors
   graph::Pattern anchored;      // with the gauge's row, if there is one, at the end
   factor::LinearSystem system;  // of `anchored`, at the linearization points
 };

@@ -28,3 +28,10 @@ near() {
   [ -n "$1" ]
   awk -v a="$1" -v b="$2" -v bound="${3:-1e-9}" 'BEGIN {d = a - b; most = bound * (1 + (b < 0 ? -b : b)); exit !(d * d <= most * most)}'
 }
+
+# option_names [FILE]: every name of an option in a --help text, a line each: one option a line, but several in those of
+# what is the same everywhere.
+option_names() {
+  awk -F '  +' '/^The same everywhere/ {several = 1} /^  -/ {for (k = 2; k <= (several ? NF : 2); ++k) print $k}' "$@" |
+    sed 's/ .*//' | tr , '\n'
+}

@@ -19,7 +19,7 @@ tab() {
 @test "every option of --help is completed, and none besides" {
   for command in "$BIN"/sg-*; do
     name=${command##*/}
-    [ "$(tab $name - | tr ' ' '\n')" = "$($name --help | awk '/^  -/ {print $1}' | tr , '\n' | LC_ALL=C sort)" ] ||
+    [ "$(tab $name - | tr ' ' '\n')" = "$($name --help | option_names | LC_ALL=C sort)" ] ||
       { echo "$name" >&2; return 1; }
   done
   [ "$(tab sg-gen sine --no-)" = "--no-trace-comment" ]

@@ -1,0 +1,31 @@
+// Nested dissection for graphs that are wide in all directions (George 1973; Lipton, Rose, Tarjan 1979), down to pieces
+// that weighted minimum fill orders.
+//
+// Separators (separator.h) part the graph again and again. Small pieces are ordered by a greedy pass that knows what is
+// around them (fill_graph.h), and pieces somewhat larger by that or by further separators, whichever is cheaper: what a
+// piece costs depends on no other, so that the elimination complexity of all is the sum of what the pieces say.
+//
+// Time: every level of pieces looks at every edge a few dozen times, and there are about log2(n / 400) levels. Memory
+// O(n + m). One thread; the same order on any machine with the same METIS.
+#pragma once
+
+#include <cstdint>
+
+#include "lib/elim/score.h"
+#include "lib/graph/pattern.h"
+
+namespace sg::order {
+
+struct Dissected {
+  graph::Order order;
+  elim::Wide ec;  // of it, exactly, as the pieces say
+};
+Dissected nested_dissection(const graph::Adjacency& graph, const std::vector<int>& dim,
+                            std::uint64_t seed);
+
+// The same of what is left of a graph once all has gone that any good order may begin with: what is simplicial or has at
+// most three neighbours. Indistinguishable variables go together.
+graph::Order dissect(const graph::Adjacency& graph, const std::vector<int>& dim,
+                     std::uint64_t seed);
+
+}  // namespace sg::order

@@ -1,0 +1,249 @@
+#include "lib/order/dissect.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "lib/order/fill_graph.h"
+#include "lib/order/order.h"
+#include "lib/order/separator.h"
+#include "lib/order/vertex_cut.h"
+#include "lib/order/wmf.h"
+#include "tests/unit/common.h"
+
+using namespace sg::test;
+
+namespace {
+
+using sg::Index;
+using sg::graph::Adjacency;
+using sg::graph::Order;
+using sg::graph::Pattern;
+using sg::order::Piece;
+using sg::order::Separation;
+
+// A grid in the plane with some of its edges left out, and a few far ones.
+Pattern odd_grid(Random& random, Index side) {
+  std::vector<int> dim(static_cast<std::size_t>(side) * side);
+  for (int& d : dim) d = draw(random, 1, 6);
+  std::vector<std::vector<Index>> rows;
+  const auto cell = [&](Index x, Index y) { return y * side + x; };
+  for (Index y = 0; y < side; ++y) {
+    for (Index x = 0; x < side; ++x) {
+      if (x + 1 < side && draw(random, 0, 9) > 0) rows.push_back({cell(x, y), cell(x + 1, y)});
+      if (y + 1 < side && draw(random, 0, 9) > 0) rows.push_back({cell(x, y), cell(x, y + 1)});
+    }
+  }
+  for (Index k = 0; k < side / 2; ++k) {
+    const std::vector<Index> ends = shuffled(random, side * side);
+    rows.push_back({ends[0], ends[1], ends[2]});
+  }
+  return make_pattern(std::move(dim), rows);
+}
+
+Piece piece_of(const Adjacency& graph, const std::vector<int>& dim, std::vector<Index> inner) {
+  std::vector<Index> number(dim.size(), 0);
+  Piece result = sg::order::piece(graph, dim, std::move(inner), number);
+  CHECK(number == std::vector<Index>(dim.size(), 0));
+  return result;
+}
+
+std::vector<Index> first(Index n) {
+  std::vector<Index> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+bool separates(const Piece& piece, const Separation& side) {
+  for (Index v = 0; v < piece.size(); ++v) {
+    for (const Index u : piece.inside[v]) {
+      if (side[v] + side[u] == 1) return false;
+    }
+  }
+  return true;
+}
+
+int separator_weight(const Piece& piece, const Separation& side) {
+  int sum = 0;
+  for (Index v = 0; v < piece.size(); ++v) {
+    if (side[v] == sg::order::in_separator) sum += piece.inner_weight[v];
+  }
+  return sum;
+}
+
+// The least weight of any separator that leaves these on their sides: all of them tried.
+int least_separator(const Piece& piece, Separation side, const std::vector<Index>& free) {
+  int least = 1 << 20;
+  int ways = 1;
+  for (std::size_t k = 0; k < free.size(); ++k) ways *= 3;
+  for (int way = 0; way < ways; ++way) {
+    for (int k = 0, rest = way; k < static_cast<int>(free.size()); ++k, rest /= 3) {
+      side[free[k]] = static_cast<char>(rest % 3);
+    }
+    if (separates(piece, side)) least = std::min(least, separator_weight(piece, side));
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("a piece has its inner edges and what is around it", "[dissect]") {
+  const Pattern pattern = make_pattern({1, 2, 3, 4, 5}, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {1, 4}});
+  const Piece piece = piece_of(sg::graph::adjacency(pattern), pattern.dim, {1, 2});
+  CHECK(piece.inside.items == std::vector<Index>{1, 0});
+  CHECK(piece.outer == std::vector<Index>{0, 4, 3});
+  CHECK(piece.outer_weight == std::vector<int>{1, 5, 4});
+  CHECK(piece.around.items == std::vector<Index>{0, 1, 2});
+  CHECK(piece.around.begin == std::vector<Index>{0, 2, 3});
+}
+
+TEST_CASE("a minimum separator in a band is one of all that there are", "[dissect]") {
+  Random random(1);
+  int smaller = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Index n = draw(random, 4, 9);
+    const Pattern pattern = odd_pattern(random, n, 4);
+    const Adjacency graph = sg::graph::adjacency(pattern);
+    const Piece piece = piece_of(graph, pattern.dim, first(n));
+    // Any separation: what is left of a side that has a neighbour on the other is taken into the separator.
+    Separation side(n);
+    for (char& s : side) s = static_cast<char>(draw(random, 0, 1));
+    for (Index v = 0; v < n; ++v) {
+      for (const Index u : graph[v]) {
+        if (side[v] + side[u] == 1) side[v] = sg::order::in_separator;
+      }
+    }
+    REQUIRE(separates(piece, side));
+    const std::array<std::int64_t, 2> room{draw(random, 0, 8), draw(random, 0, 8)};
+    const auto found = sg::order::minimum_separations(piece, side, room);
+    // What neither moved is either beyond the band or might as well be: of the others all ways are tried.
+    for (const int k : {0, 1}) {
+      REQUIRE(separates(piece, found[k]));
+      REQUIRE(separator_weight(piece, found[k]) <= separator_weight(piece, side));
+    }
+    REQUIRE(separator_weight(piece, found[0]) == separator_weight(piece, found[1]));
+    std::vector<Index> moved;
+    for (Index v = 0; v < n; ++v) {
+      if (side[v] == sg::order::in_separator || found[0][v] != side[v] || found[1][v] != side[v]) {
+        moved.push_back(v);
+      }
+    }
+    REQUIRE(separator_weight(piece, found[0]) == least_separator(piece, side, moved));
+    smaller += separator_weight(piece, found[0]) < separator_weight(piece, side);
+  }
+  CHECK(smaller > 30);
+}
+
+TEST_CASE("a separator parts a wide graph in two, the same each time", "[dissect]") {
+  Random random(2);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Pattern pattern = odd_grid(random, 20);
+    const Piece piece = piece_of(sg::graph::adjacency(pattern), pattern.dim, first(400));
+    const Separation side = sg::order::separation(piece, 1);
+    REQUIRE(separates(piece, side));
+    CHECK(std::count(side.begin(), side.end(), 0) > 40);
+    CHECK(std::count(side.begin(), side.end(), 1) > 40);
+    CHECK(side == sg::order::separation(piece, 1));
+  }
+}
+
+TEST_CASE("a clique has no separator", "[dissect]") {
+  std::vector<Index> all = first(50);
+  const Pattern clique = make_pattern(std::vector<int>(50, 3), {all});
+  CHECK(sg::order::separation(piece_of(sg::graph::adjacency(clique), clique.dim, all), 1).empty());
+}
+
+TEST_CASE("the fill graph of a part knows fills and degrees, outer variables being joined",
+          "[dissect]") {
+  Random random(3);
+  for (int trial = 0; trial < 400; ++trial) {
+    const Index n = draw(random, 2, 24), inner = draw(random, 1, n - 1);
+    Pattern pattern = odd_pattern(random, n);
+    std::vector<std::set<Index>> joined(n);
+    const Adjacency whole = sg::graph::adjacency(pattern);
+    Adjacency part;
+    for (Index v = 0; v < n; ++v) {
+      for (const Index u : whole[v]) {
+        if (v < inner || u < inner) part.items.push_back(u);
+        joined[v].insert(u);
+      }
+      for (Index u = inner; v >= inner && u < n; ++u) joined[v].insert(u);
+      joined[v].erase(v);
+      part.close();
+    }
+    auto graph = sg::order::fill_graph_of_part(part, pattern.dim, inner, 1'000'000);
+    std::vector<bool> gone(n, false);
+    for (;;) {
+      std::vector<Index> alive;
+      for (Index v = 0; v < inner; ++v) {
+        if (!graph.variables.alive[v]) continue;
+        alive.push_back(v);
+        std::set<Index> around = joined[v];
+        for (Index m = v; m >= 0; m = graph.variables.next[m]) around.erase(m);
+        std::int64_t degree = 0, fill = 0;
+        for (const Index a : around) {
+          degree += pattern.dim[a];
+          for (const Index b : around) {
+            if (a < b && !joined[a].count(b)) fill += std::int64_t{pattern.dim[a]} * pattern.dim[b];
+          }
+        }
+        REQUIRE(graph.degree[v] == degree);
+        REQUIRE(graph.fill[v].fill == fill);
+      }
+      if (alive.empty()) break;
+      const std::size_t done = graph.variables.order.size();
+      sg::order::eliminate(graph, alive[draw(random, 0, static_cast<int>(alive.size()) - 1)]);
+      for (std::size_t k = done; k < graph.variables.order.size(); ++k) {
+        const Index v = graph.variables.order[k];
+        for (const Index a : joined[v]) {
+          joined[a].insert(joined[v].begin(), joined[v].end());
+          joined[a].erase(a);
+        }
+        for (const Index a : joined[v]) joined[a].erase(v);
+      }
+    }
+    REQUIRE(static_cast<Index>(graph.variables.order.size()) == inner);
+  }
+}
+
+TEST_CASE("what pieces say they cost is what the order costs", "[dissect]") {
+  Random random(4);
+  for (int trial = 0; trial < 12; ++trial) {
+    const Pattern pattern = odd_grid(random, draw(random, 15, 45));
+    const Adjacency graph = sg::graph::adjacency(pattern);
+    const auto found = sg::order::nested_dissection(graph, pattern.dim, 0);
+    REQUIRE(sg::graph::is_permutation(found.order, pattern.variables()));
+    CHECK(sg::elim::to_string(found.ec) ==
+          sg::elim::to_string(sg::elim::elimination_complexity(pattern, found.order)));
+    CHECK(sg::order::nested_dissection(graph, pattern.dim, 0).order == found.order);
+  }
+}
+
+TEST_CASE("a part's greedy pass is exact beyond its budget, too", "[dissect]") {
+  Random random(5);
+  Pattern wide = odd_grid(random, 12);
+  for (int k = 0; k < 2000; ++k) {
+    const std::vector<Index> ends = shuffled(random, 144);
+    wide.rows.add(std::vector<Index>{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
+  }
+  const auto found = sg::order::greedy_fill_of_part(sg::graph::adjacency(wide), wide.dim, 144);
+  CHECK(found.ec == sg::elim::elimination_complexity(wide, found.order));
+}
+
+TEST_CASE("dissection orders any graph, and a wide one better than others do", "[dissect]") {
+  Random random(6);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Pattern pattern = odd_pattern(random, draw(random, 0, 59));
+    const Order order = sg::order::dissect(sg::graph::adjacency(pattern), pattern.dim, 0);
+    REQUIRE(sg::graph::is_permutation(order, pattern.variables()));
+  }
+  const Pattern wide = odd_grid(random, 90);
+  const auto ec = [&](const Order& order) { return sg::elim::elimination_complexity(wide, order); };
+  const sg::elim::Wide found = ec(sg::order::wmf(wide));
+  CHECK(found < ec(sg::order::elimination_order("metis", wide)));
+  CHECK(found < ec(sg::order::elimination_order("amd", wide)));
+}
