@@ -13,8 +13,9 @@ namespace {
 constexpr double growth = 1.25;          // of EC until the order is renewed
 constexpr double worth_renewing = 1.01;  // at the end of a budget: what a new order has to win
 constexpr Index most_added = 192;        // rows until the factor is renewed
-constexpr Index sparsest = 256;          // rate of a start, before none
-constexpr double most_sigma = 1e5;       // of a start, in multiples of the whole graph's
+constexpr std::int64_t most_stored = 1 << 23;  // numbers in roots (information_gain.h)
+constexpr Index sparsest = 256;                // rate of a start, before none
+constexpr double most_sigma = 1e5;             // of a start, in multiples of the whole graph's
 
 struct Waiting {
   double worth;  // as it was last
@@ -35,12 +36,13 @@ struct Greedy {
   std::vector<int> guessed = {};  // the factor by which each offer's worth was guessed
   std::priority_queue<Waiting> waiting = {};
   std::vector<Index> tried = {};         // offers
+  std::int64_t stored = 0;               // numbers of their roots
   std::vector<Index> after_factor = {};  // offers of variables that it does not know
   std::vector<Move> moves = {};
   std::size_t settled = 0;  // of the moves
 };
 
-void renew_factor_alone(Greedy& greedy) {
+void make_factor(Greedy& greedy) {
   greedy.unfactored.assign(greedy.part.evidence.variable_vertex.size(), false);
   ++greedy.factors;
   refactor(greedy.part);
@@ -122,6 +124,7 @@ void offer_all(Greedy& greedy) {
   greedy.offers.clear();
   greedy.guessed.clear();
   greedy.tried.clear();
+  greedy.stored = 0;
   greedy.after_factor.clear();
   for (const Index e : part.choice.candidates) {
     if (part.in.edge[e] || !all_in(part, e)) continue;
@@ -150,12 +153,18 @@ void settle_moves(Greedy& greedy) {
   }
 }
 
+// They are tried again before they are believed.
+void forget_tried(Greedy& greedy) {
+  for (const Index i : greedy.tried) greedy.offers[i].tried.reset();
+  greedy.tried.clear();
+  greedy.stored = 0;
+}
+
 // A factor of all that is in, in the same order.
 void renew_factor(Greedy& greedy) {
   settle_moves(greedy);
-  renew_factor_alone(greedy);
-  for (const Index i : greedy.tried) greedy.offers[i].tried.reset();
-  greedy.tried.clear();
+  make_factor(greedy);
+  forget_tried(greedy);
   for (const Index i : greedy.after_factor) greedy.waiting.push({HUGE_VAL, i});
   greedy.after_factor.clear();
 }
@@ -164,7 +173,7 @@ void renew_factor(Greedy& greedy) {
 void renew_order(Greedy& greedy) {
   settle_moves(greedy);
   place_order(greedy.part);
-  renew_factor_alone(greedy);
+  make_factor(greedy);
   take_variances(greedy.part.knowledge);
   offer_all(greedy);
 }
@@ -185,7 +194,9 @@ double reassess(Greedy& greedy, Index i) {
   if (offer.tried) {
     update(greedy.part.knowledge, *offer.tried);
   } else {
+    if (greedy.stored > most_stored) forget_tried(greedy);
     offer.tried = try_measurement(greedy.part.knowledge, offer.measurement);
+    greedy.stored += offer.tried->root.size();
     greedy.tried.push_back(i);
   }
   return worth(greedy.part, offer, estimated_gain(*offer.tried));
