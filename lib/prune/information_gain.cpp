@@ -82,7 +82,7 @@ void each_scalar(const Knowledge& knowledge, const auto& visit) {
 
 void place_drift(Knowledge& knowledge) {
   const MatrixXd& drift = knowledge.evidence.drift;
-  knowledge.drift.resize(drift.rows(), knowledge.aligned ? drift.cols() : 0);
+  knowledge.drift.resize(knowledge.triangle.rows(), knowledge.aligned ? drift.cols() : 0);
   if (!knowledge.aligned) return;
   each_scalar(knowledge,
               [&](Index row, Index scalar) { knowledge.drift.row(row) = drift.row(scalar); });
@@ -319,6 +319,7 @@ Tried try_measurement(Knowledge& knowledge, const Measurement& m) {
   tried.y = product(knowledge, m, knowledge.y);
   const int h = tried.height(), ld = static_cast<int>(tried.root.rows());
   tried.covariance = Rows::Zero(h, solve::round_up(h));
+  tried.shared.resize(0, solve::round_up(h));
   solve::kernels().add_inner_products(tried.covariance.data(), solve::round_up(h),
                                       tried.root.data(), ld, h, tried.root.data(), ld, h, ld);
   update(knowledge, tried);

@@ -259,10 +259,10 @@ TEST_CASE("gains and sigmas of moves are those of dense algebra", "[ecgreedy]") 
   CHECK(drops > 0);
 }
 
-TEST_CASE("an order of its own, increases and drops add up to EC", "[ecgreedy]") {
+TEST_CASE("in one order, increases and drops add up to EC", "[ecgreedy]") {
   for (int trial = 0; trial < 6; ++trial) {
     Random random(300 + trial);
-    World world(random_text(random, draw(random, 20, 40), trial % 2 * 6, 20), 1 + trial % 2);
+    World world(random_text(random, draw(random, 20, 40), 0, 20));
     world.options.order = [](const graph::GraphPattern& part) {  // no other, whatever is in
       graph::Order order(part.pattern.variables());
       std::iota(order.begin(), order.end(), 0);
