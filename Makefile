@@ -9,7 +9,7 @@ JOBS   ?= $(shell nproc)
 # Debian packages, by what they are for.
 build_packages := g++ cmake make ninja-build libeigen3-dev libsuitesparse-dev libboost-dev libboost-graph-dev \
 	libboost-random-dev libboost-iostreams-dev libmetis-dev libscotch-dev libcli11-dev nlohmann-json3-dev libtbb-dev \
-	libcairo2-dev libspectra-dev pkg-config
+	libcairo2-dev libspectra-dev libjs-d3 pkg-config
 test_packages  := catch2 bats python3 mandoc graphviz zstd gzip bzip2 xz-utils
 lint_packages  := clang-format clang-tidy python3 mandoc git
 bench_packages := libbenchmark-dev
@@ -19,7 +19,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers starts marginalize lint format clean
+.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers budget starts marginalize lint format clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -101,6 +101,9 @@ orderings: build build/packages/plot ## every ordering on every graph, into out/
 
 outliers: build ## which false edges sg-solve --gnc finds, and what they cost, into out/outliers
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/outliers OUT=$(CURDIR)/out/outliers
+
+budget: build ## what a budget of EC buys online, into out/budget
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/budget OUT=$(CURDIR)/out/budget
 
 starts: build ## every start of sg-solve on every graph, into out/starts (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/starts OUT=$(CURDIR)/out/starts \

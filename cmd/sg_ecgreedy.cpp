@@ -1,6 +1,5 @@
 // sg-ecgreedy: keep the candidates that tell most of where the poses are for what they cost to eliminate.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "cmd/common/interrupt.h"
@@ -8,6 +7,7 @@
 #include "cmd/common/options.h"
 #include "cmd/common/prune_options.h"
 #include "cmd/common/table.h"
+#include "cmd/ecgreedy/budget.h"
 #include "lib/factor/initialize.h"
 #include "lib/prune/ecgreedy.h"
 #include "lib/prune/exchange.h"
@@ -99,13 +99,9 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_table(command, options.table, columns);
 }
 
-elim::Wide wide(double number) {
-  return static_cast<elim::Wide>(std::min(std::round(number), 1e37));
-}
-
 std::string with_budget(std::string path, double budget) {
   if (const auto place = path.find("%d"); place != std::string::npos)
-    path.replace(place, 2, elim::to_string(wide(budget)));
+    path.replace(place, 2, elim::to_string(ecgreedy::rounded(budget)));
   return path;
 }
 
@@ -146,20 +142,17 @@ struct Subject {
 
 // The budget that the call gives, in the library's terms.
 void set_budget(const Options& options, const Subject& subject, prune::EcGreedyOptions& greedy) {
-  if (options.ec) greedy.ec = wide(*options.ec);
+  if (options.ec) greedy.ec = ecgreedy::rounded(*options.ec);
   if (options.sigma) greedy.sigma = options.sigma;
-  if (options.ec_part) {
-    const graph::GraphPattern variables = graph::graph_pattern(subject.from.graph);
-    const elim::Wide whole =
-        elim::elimination_complexity(variables.pattern, greedy.order(variables));
-    greedy.ec = wide(*options.ec_part * elim::to_double(whole));
-  }
+  if (options.ec_part)
+    greedy.ec = ecgreedy::part_of_ec(subject.from.graph, *options.ec_part, greedy);
   if (options.sigma_part) {
     const auto whole = prune::whole_sigma(subject.choice, subject.evidence, greedy);
     if (whole) greedy.sigma = *options.sigma_part * *whole;
   }
-  if (!options.at.empty()) greedy.ec = wide(std::ranges::max(options.at));
-  greedy.start_ec = options.at.empty() ? greedy.ec : wide(std::ranges::min(options.at));
+  if (!options.at.empty()) greedy.ec = ecgreedy::rounded(std::ranges::max(options.at));
+  greedy.start_ec =
+      options.at.empty() ? greedy.ec : ecgreedy::rounded(std::ranges::min(options.at));
   if (!greedy.ec && !greedy.sigma)
     greedy.kept = static_cast<Index>(
         cmd::kept_count(options.amount, subject.from, options.pruning.input.options));
@@ -213,12 +206,9 @@ std::vector<prune::Move> moves_at(const cmd::Command& command, const Options& op
                                   const prune::EcGreedyOptions& greedy) {
   if (greedy.ec) moves = within(command, subject, moves, greedy);
   std::vector<prune::Move> made(moves.begin(), moves.end());
-  if (greedy.ec && made.size() > 1)
-    made = prune::exchanged(subject.choice, subject.evidence, greedy, std::move(made));
+  if (greedy.ec) made = prune::exchanged(subject.choice, subject.evidence, greedy, std::move(made));
   if (options.no_free) return made;
-  if (auto free = prune::free_edges(subject.choice, subject.evidence, made, greedy))
-    made.push_back(std::move(*free));
-  return made;
+  return ecgreedy::with_free(subject.choice, subject.evidence, made, greedy);
 }
 
 void write(const cmd::Command& command, const cmd::PruneOptions& pruning, bool asked,
@@ -260,7 +250,7 @@ void run(const cmd::Command& command, const Options& options) {
     if (!writes) return;
     cmd::PruneOptions pruning = options.pruning;
     pruning.output.path = with_budget(options.pruning.output.path, budget);
-    greedy.ec = wide(budget);
+    greedy.ec = ecgreedy::rounded(budget);
     write(command, pruning, asked, subject, moves_at(command, options, subject, moves, greedy));
   }
 }

@@ -1,6 +1,5 @@
 // sg-isam2: replay a graph step by step through an incremental smoother; a row a step.
 #include <cmath>
-#include <ctime>
 
 #include "cmd/common/command.h"
 #include "cmd/common/complete.h"
@@ -8,8 +7,8 @@
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
 #include "cmd/isam2/online.h"
+#include "cmd/isam2/timed.h"
 #include "lib/elim/score.h"
-#include "lib/factor/gauge.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_leave.h"
@@ -44,14 +43,6 @@ bool lets_go(const Options& options) {
   return options.window.lag > 0 || std::isfinite(options.window.distance) || has_budget(options);
 }
 
-// Processor time: what other programs on the machine do does not count, and a step of a millisecond
-// that is interrupted for ten stays a step of a millisecond.
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 // What the whole graph costs in batch, in COLAMD's order.
 struct Whole {
   graph::Order order;
@@ -70,9 +61,9 @@ double elimination_seconds(const solve::Isam2& isam, const graph::Order& order) 
   solve::Snapshot snapshot;
   solve::take_snapshot(isam, true, snapshot);
   solve::Elimination elimination = solve::plan_elimination(snapshot.system, order);
-  const double start = processor_seconds();
+  const double start = isam2::processor_seconds();
   solve::eliminate(elimination, snapshot.system);
-  return processor_seconds() - start;
+  return isam2::processor_seconds() - start;
 }
 
 struct Row {
@@ -130,6 +121,8 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return row.window.admission.returned; }, spending_measurements},
     {"budget", "Bound of ec_bt", [](Row& row) { return row.window.options.budget; }, "a budget"},
     {"violations", "Steps so far that ended above the budget", &Row::violations, "a budget"},
+    {"renewed", "Steps so far that ordered the whole anew",
+     [](Row& row) { return row.window.renewed; }, "--renew"},
     {"error", "Metres from the truth of the newest pose", &Row::error, "--truth"},
     {"sigma", "Standard deviation of the newest pose's position",
      [](Row& row) { return isam2::online_sigma(row.window.replay, row.step); }, "--sigma"},
@@ -176,6 +169,10 @@ void add_window(CLI::App& app, Options& options) {
                  "The same in milliseconds, by what steps have taken so far")
       ->option_text("X")
       ->check(cmd::number(0));
+  app.add_option("--renew", options.window.renew,
+                 "Order the whole anew where ec_bt is above X times what\nthat gives")
+      ->option_text("X")
+      ->check(cmd::number(1));
   app.add_option("--truth", options.truth, "Add error, from where FILE has the newest pose")
       ->option_text("FILE");
   app.add_flag("--sigma", options.sigma, "Add sigma, of the newest pose");
@@ -237,9 +234,9 @@ void replay(const cmd::Command& command, const std::string& file, const std::str
     if (options.budget_ms)
       window.options.budget =
           static_cast<elim::Wide>(isam2::ec_of(calibration, *options.budget_ms / 1e3));
-    const double start = processor_seconds();
+    const double start = isam2::processor_seconds();
     const solve::Isam2Report report = solve::window_step(window, k);
-    const double seconds = processor_seconds() - start;
+    const double seconds = isam2::processor_seconds() - start;
     isam2::add(calibration, static_cast<double>(report.ec), seconds);
     summary.seconds.push_back(seconds);
     summary.ec.push_back(static_cast<double>(report.ec));
@@ -273,22 +270,16 @@ void write_graph(const cmd::Command& command, const Options& options,
                       cmd::estimate_changes(problem, values, moved));
 }
 
-// A replay needs its gauge from the first step on; what holds the whole graph may come later.
-void hold_at_first(const cmd::Command& command, factor::Problem& problem) {
-  if (problem.held >= 0 || factor::holds_first_pose(problem, factor::start_values(problem))) return;
-  factor::hold_first_pose(problem);
-  cmd::warn(command,
-            "the first pose is held, since nothing holds it in the first step; sg-solve lets go of "
-            "it, since "
-            "later edges hold the whole");
-}
-
 void run_file(const cmd::Command& command, const Options& options, const std::string& path,
               const std::optional<score::Trajectory>& truth, cmd::Table<Row>& table) {
   const Graph graph = cmd::read(options.inputs, path);
   cmd::stage("start");
   factor::Problem problem = factor::make_problem(graph);
-  hold_at_first(command, problem);
+  if (isam2::hold_at_first(problem))
+    cmd::warn(
+        command,
+        "the first pose is held, since nothing holds it in the first step; sg-solve lets go of "
+        "it, since later edges hold the whole");
   for (const std::string& ordering : options.orderings) {
     solve::Isam2Options isam = options.isam;
     isam.ordering = ordering;
@@ -320,6 +311,7 @@ void run(const cmd::Command& command, const Options& options) {
       {letting_go, lets_go(options)},
       {spending_measurements, options.window.spend == solve::Spend::measurements},
       {"a budget", has_budget(options)},
+      {"--renew", options.window.renew > 0},
       {"--truth", !options.truth.empty()},
       {"--sigma", options.sigma}};
   cmd::Table table(options.table, columns, given, output);

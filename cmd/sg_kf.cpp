@@ -7,6 +7,7 @@
 
 #include "cmd/common/options.h"
 #include "cmd/common/prune_options.h"
+#include "cmd/kf/changes.h"
 #include "lib/prune/covisible.h"
 #include "lib/prune/keyframes.h"
 #include "lib/text/words.h"
@@ -140,7 +141,7 @@ void run(const cmd::Command& command, const Options& options) {
   const graph::PoseIndex poses = graph::pose_index(graph);
   const graph::Lists<> odometry = prune::odometry_steps(graph, poses);
   const auto keyframes = chosen_keyframes(options, graph, poses, odometry);
-  prune::Keyframing keyframing = prune::keyframing(
+  const prune::Keyframing keyframing = prune::keyframing(
       graph, poses, odometry, keyframes, {options.loops == "move", revisit, options.fuse});
   if (options.rule.rate != 1 && keyframing.merged == 0 &&
       std::ranges::find(keyframes, false) == keyframes.end())
@@ -148,14 +149,8 @@ void run(const cmd::Command& command, const Options& options) {
                            std::to_string(keyframes.size()) +
                            " are keyframes (the first of a segment, and fixed ones, always are)");
   report(command, keyframing);
-  formats::Changes changes =
-      cmd::pruned(graph, poses, options.pruning.min_obs, std::move(keyframing.removal));
-  changes.late_edge = keyframing.late;
-  changes.edge_line = [&](Index e) -> std::optional<std::string> {
-    if (!keyframing.rewritten[e]) return std::nullopt;
-    return prune::rewritten_line(keyframing, e);
-  };
-  cmd::write_filtered(command, options.pruning.output, graph, std::move(changes));
+  cmd::write_filtered(command, options.pruning.output, graph,
+                      kf::changes(keyframing, options.pruning.min_obs));
 }
 
 }  // namespace

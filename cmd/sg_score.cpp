@@ -1,22 +1,13 @@
 // sg-score: what a graph is worth, and what it costs, in one row.
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
-#include "lib/elim/score.h"
-#include "lib/factor/initialize.h"
-#include "lib/geometry/numbers.h"
-#include "lib/graph/summary.h"
+#include "cmd/score/columns.h"
 #include "lib/prune/keyframes.h"
-#include "lib/score/divergence.h"
-#include "lib/score/fill.h"
-#include "lib/score/sigma.h"
-#include "lib/score/trajectory.h"
-#include "lib/trees/connectivity.h"
 
 using namespace sg;
 
@@ -34,134 +25,8 @@ struct Options {
   bool per_pose = false;
 };
 
-// What graphs are compared with.
-struct Reference {
-  Graph graph;
-  score::Trajectory trajectory = score::trajectory(graph);
-};
-
-// What a graph's rows share, whatever the ordering.
-struct Subject {
-  const Options& options;
-  const std::optional<Reference>& reference;
-  const std::optional<score::Odometry>& odometry;  // to place dropped poses by
-  const std::string& file;
-  const Graph& graph;
-  trees::Weights weights;
-  graph::GraphPattern variables = graph::graph_pattern(graph);
-  std::optional<score::Trajectory> trajectory_ = {};
-  std::optional<double> log_trees_ = {};
-  std::optional<std::optional<double>> lambda2_ = {};
-  std::optional<score::TrajectoryError> error_ = {};
-  std::optional<std::optional<score::Divergence>> divergence_ = {};
-  std::optional<factor::Problem> problem_ = {};
-  std::optional<factor::Values> values_ = {};
-  std::optional<std::vector<score::PoseSigma>> sigmas_ = {};  // none of a singular graph
-  bool singular = false;                                      // once it has been eliminated
-
-  const score::Trajectory& trajectory() {
-    return cmd::once(trajectory_, [&] {
-      score::Trajectory kept = score::trajectory(graph);
-      return odometry ? score::filled(kept, *odometry) : kept;
-    });
-  }
-  double log_trees() {
-    return cmd::once(log_trees_, [&] { return trees::log_trees(graph, weights); });
-  }
-  std::optional<double> lambda2() {
-    return cmd::once(lambda2_, [&] { return trees::algebraic_connectivity(graph, weights); });
-  }
-  const factor::Problem& problem() {
-    return cmd::once(problem_, [&] { return factor::make_problem(graph); });
-  }
-  const factor::Values& values() {
-    return cmd::once(values_, [&] { return factor::start_values(problem()); });
-  }
-  const score::TrajectoryError& error() {
-    return cmd::once(error_, [&] {
-      return score::trajectory_error(trajectory(), reference.value().trajectory,
-                                     score::alignment(options.align).value());
-    });
-  }
-  const std::optional<score::Divergence>& divergence() {
-    return cmd::once(divergence_,
-                     [&] { return score::divergence(graph, reference.value().graph); });
-  }
-  std::optional<double> kld() {
-    return divergence() ? std::optional(divergence()->kld) : std::nullopt;
-  }
-  std::optional<double> overconfidence() {
-    return divergence() ? std::optional(divergence()->overconfidence) : std::nullopt;
-  }
-};
-
-struct Row {
-  Subject& of;
-  cmd::Method method;
-  std::optional<graph::Order> order_ = {};
-  std::optional<std::optional<solve::Elimination>> elimination_ = {};  // nothing if singular
-
-  const graph::Order& order() {
-    return cmd::once(
-        order_, [&] { return cmd::order_by(method, of.options.method, of.graph, of.variables); });
-  }
-  elim::Wide ec() { return elim::elimination_complexity(of.variables.pattern, order()); }
-  std::optional<solve::Elimination>& elimination() {
-    auto& result = cmd::once(elimination_,
-                             [&] { return score::eliminated(of.problem(), of.values(), order()); });
-    of.singular = of.singular || !result;
-    return result;
-  }
-  std::optional<double> log_det() {
-    if (!elimination()) return std::nullopt;
-    return solve::log_determinant(*elimination());
-  }
-  const std::vector<score::PoseSigma>& sigmas() {
-    return cmd::once(of.sigmas_, [&] {
-      if (!elimination()) return std::vector<score::PoseSigma>{};
-      return score::pose_sigmas(of.problem(), of.values(), *elimination());
-    });
-  }
-  std::optional<double> sigma_mean() {
-    if (sigmas().empty()) return std::nullopt;
-    const auto sum = [](double all, const auto& pose) { return all + pose.sigma; };
-    return std::accumulate(sigmas().begin(), sigmas().end(), 0.0, sum) /
-           static_cast<double>(sigmas().size());
-  }
-  std::optional<double> sigma_max() {
-    if (sigmas().empty()) return std::nullopt;
-    return std::ranges::max(sigmas(), {}, &score::PoseSigma::sigma).sigma;
-  }
-};
-
-const std::vector<cmd::Column<Row>> columns{
-    {"file", "The file", [](Row& row) { return row.of.file; }, "several files"},
-    {"vertices", "How many there are", [](Row& row) { return row.of.graph.vertices(); }},
-    {"edges", "How many there are", [](Row& row) { return row.of.graph.edges(); }},
-    {"log_trees", "Logarithm of the weighted number of spanning trees",
-     [](Row& row) { return row.of.log_trees(); }},
-    {"lambda2", "Algebraic connectivity", [](Row& row) { return row.of.lambda2(); }},
-    {"dopt", "Log determinant of the information at the file's estimate", &Row::log_det},
-    {"sigma_mean", "Mean standard deviation of a pose's position", &Row::sigma_mean},
-    {"sigma_max", "The largest", &Row::sigma_max},
-    {"avg_obs", "Mean number of observations a landmark",
-     [](Row& row) { return graph::average_observations(row.of.graph); }},
-    {"matched", "Poses that graph and reference share",
-     [](Row& row) { return row.of.error().matched; }, "--reference"},
-    {"ate_rmse", "Absolute trajectory error, root mean square",
-     [](Row& row) { return row.of.error().ate; }, "--reference"},
-    {"rpe_rmse", "Relative pose error, its root mean square",
-     [](Row& row) { return row.of.error().rpe; }, "--reference"},
-    {"kld", "Divergence of the reference's Gaussian", [](Row& row) { return row.of.kld(); },
-     "--reference"},
-    {"overconfidence", "How many times too small a variance is",
-     [](Row& row) { return row.of.overconfidence(); }, "--reference"},
-    {"order", "The ordering", [](Row& row) { return row.method.label; }},
-    {"ec", "Elimination complexity", &Row::ec},
-};
-
 struct PoseRow {
-  Subject& of;
+  score::Subject& of;
   Index vertex;
   std::optional<double> sigma;
 };
@@ -192,12 +57,13 @@ void add_options(cmd::Command& command, Options& options) {
   command.app.add_flag("--per-pose", options.per_pose, "A row for every pose")->option_text(" ");
   cmd::add_methods(command, options.method);
   cmd::add_output(command, options.output);
-  cmd::add_table(command, options.table,
-                 {{"", cmd::headings(columns)}, {"With --per-pose:", cmd::headings(pose_columns)}});
+  cmd::add_table(
+      command, options.table,
+      {{"", cmd::headings(score::columns)}, {"With --per-pose:", cmd::headings(pose_columns)}});
 }
 
 // A graph's or a trajectory's file, of any format: it need not be that of the graphs.
-Reference read_reference(const std::string& path, formats::ReadOptions options) {
+score::Reference read_reference(const std::string& path, formats::ReadOptions options) {
   options.format.clear();
   cmd::begin_reading(path);
   return {formats::read_graph(path, options)};
@@ -223,7 +89,7 @@ void check_columns(const CLI::App& app, const Options& options) {
   const auto asks = [&](std::string_view name) {
     return std::ranges::count(options.table.columns, name) > 0;
   };
-  for (const auto& column : columns) {
+  for (const auto& column : score::columns) {
     if (asks(column.name) && column.needs == "--reference" && options.reference.empty())
       throw text::usage_error("column '" + column.name + "' wants a --reference");
   }
@@ -237,13 +103,13 @@ void check_columns(const CLI::App& app, const Options& options) {
 }
 
 // What makes a comparison other than it looks.
-void warn_of_reference(const cmd::Command& command, Subject& subject) {
+void warn_of_reference(const cmd::Command& command, const Options& options,
+                       score::Subject& subject) {
   const score::Trajectory &own = subject.trajectory(),
                           &reference = subject.reference.value().trajectory;
   std::vector<Id> shared;
   std::ranges::set_intersection(own.id, reference.id, std::back_inserter(shared));
-  const std::string both =
-      subject.graph.file + " and " + text::input_name(subject.options.reference);
+  const std::string both = subject.graph.file + " and " + text::input_name(options.reference);
   if (shared.empty()) {
     cmd::warn(command, both + " have no pose in common (poses are matched by id)");
   } else if (score::is_planar(own) != score::is_planar(reference)) {
@@ -251,14 +117,14 @@ void warn_of_reference(const cmd::Command& command, Subject& subject) {
   }
 }
 
-void warn_if_singular(const cmd::Command& command, Subject& subject) {
+void warn_if_singular(const cmd::Command& command, score::Subject& subject) {
   if (!subject.singular) return;
   cmd::warn(command, subject.graph.file + ": no dopt and no sigma: " +
                          score::singular_error(subject.problem(), subject.values()).what());
 }
 
-void print_poses(cmd::Table<PoseRow>& table, Subject& subject, const cmd::Method& method) {
-  Row row{subject, method};
+void print_poses(cmd::Table<PoseRow>& table, score::Subject& subject, const cmd::Method& method) {
+  score::Row row{subject, method};
   for (const score::PoseSigma& pose : row.sigmas()) table.row({subject, pose.vertex, pose.sigma});
   if (!subject.singular) return;
   for (Index v = 0; v < subject.graph.vertices(); ++v) {
@@ -285,25 +151,26 @@ void run(const cmd::Command& command, const Options& options) {
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
                          {"--reference", !options.reference.empty()}};
   cmd::Output output(options.output.path);
-  std::optional<cmd::Table<Row>> table;
+  std::optional<cmd::Table<score::Row>> table;
   std::optional<cmd::Table<PoseRow>> poses;
   if (options.per_pose) {
     poses.emplace(options.table, pose_columns, given, output);
   } else {
-    table.emplace(options.table, columns, given, output);
+    table.emplace(options.table, score::columns, given, output);
   }
   output.keep_rows();
-  std::optional<Reference> reference;
+  std::optional<score::Reference> reference;
   if (!options.reference.empty())
     reference = read_reference(options.reference, options.inputs.options);
   std::optional<score::Odometry> odometry;
   if (!options.fill.empty()) odometry = read_odometry(options.fill, options.inputs.options);
+  const score::Alignment alignment = score::alignment(options.align).value();
   const trees::Weights weights = trees::tree_weights(options.weights).value();
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
     cmd::stage("score");
-    Subject subject{options, reference, odometry, path, graph, weights};
-    if (reference) warn_of_reference(command, subject);
+    score::Subject subject{options.method, alignment, reference, odometry, path, graph, weights};
+    if (reference) warn_of_reference(command, options, subject);
     for (const cmd::Method& method : cmd::methods(options.method, graph)) {
       if (table) table->row({subject, method});
       if (poses) print_poses(*poses, subject, method);

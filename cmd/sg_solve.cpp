@@ -16,6 +16,7 @@
 #include "cmd/common/same_file.h"
 #include "cmd/common/table.h"
 #include "cmd/solve/certificate.h"
+#include "cmd/solve/plan.h"
 #include "cmd/solve/residuals.h"
 #include "cmd/solve/robust.h"
 #include "cmd/solve/timing.h"
@@ -51,8 +52,6 @@ struct Options {
   std::string start;
   bool keep = false;
 };
-
-constexpr int most_iterations = 1000;
 
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
@@ -104,7 +103,7 @@ solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
   solve::BatchOptions batch;
   batch.method = options.gauss_newton ? solve::BatchMethod::gauss_newton
                                       : solve::BatchMethod::levenberg_marquardt;
-  batch.iterations = options.iterations.value_or(most_iterations);
+  batch.iterations = options.iterations.value_or(solve::most_iterations);
   batch.tolerance = options.tolerance;
   batch.loss = solve::loss(options.robust, graph);
   return batch;
@@ -126,15 +125,6 @@ void print_iteration(const solve::Iteration& iteration) {
   for (const double seconds : {iteration.linearize_s, iteration.eliminate_s})
     line += '\t' + text::format_number(seconds);
   cmd::print_error(line + "\n");
-}
-
-// Which vertices' lines an optimization rewrites: all but the constants.
-std::vector<bool> moved(const factor::Problem& problem) {
-  std::vector<bool> result(problem.graph->vertices(), false);
-  for (std::size_t j = 0; j < problem.variables.variable_vertex.size(); ++j) {
-    result[problem.variables.variable_vertex[j]] = !factor::is_held(problem, static_cast<Index>(j));
-  }
-  return result;
 }
 
 std::string rounded(double number) {
@@ -189,16 +179,6 @@ void print_certificate(const cmd::Command& command, const Options& options,
   output.commit();
 }
 
-solve::LinearSolver planned(const Options& options, const factor::Problem& problem,
-                            const factor::LinearSystem& system) {
-  graph::GraphPattern variables = problem.variables;
-  graph::Lists<>& rows = variables.pattern.rows;
-  if (problem.held >= 0) rows.begin.pop_back();  // the order is that without the gauge's row
-  rows.items.resize(rows.begin.back());
-  const graph::Order order = cmd::named_order(options.method, *problem.graph, variables).order;
-  return solve::find_backend(options.backend).make(system, order, options.threads);
-}
-
 void warn_of_scale(const cmd::Command& command) {
   cmd::warn(command,
             "nothing fixes the scale: it stays near the start's (FIX a second pose, or add an edge "
@@ -236,7 +216,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   if (command.verbose) tell_starts(starts);
   const Graph& graph = *problem.graph;
   const auto plan = [&](const factor::Problem& part, const factor::LinearSystem& system) {
-    return planned(options, part, system);
+    return solve::planned({options.method, options.backend, options.threads}, part, system);
   };
   cmd::stage("order");
   factor::LinearSystem system;
@@ -279,7 +259,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
     print_residuals(options, options.weights, problem, values, batch.loss);
   }
   cmd::write_filtered(command, options.output, graph,
-                      cmd::estimate_changes(problem, values, moved(problem)));
+                      cmd::estimate_changes(problem, values, solve::moved(problem)));
   tell(command, result, cmd::seconds_since(begin));
 }
 

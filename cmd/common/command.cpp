@@ -8,6 +8,7 @@
 
 #include "cmd/common/complete.h"
 #include "cmd/common/help.h"
+#include "cmd/common/shell.h"
 #include "formats/convert.h"
 #include "formats/reorder.h"
 #include "lib/text/line.h"
@@ -15,20 +16,6 @@
 
 namespace sg::cmd {
 namespace {
-
-std::string shell_quoted(const std::string& word) {
-  constexpr auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:@%+";
-  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-  std::string quoted = "'";
-  for (char c : word) {
-    if (c == '\n' || c == '\r') {
-      quoted += ' ';  // the comment is one line
-    } else {
-      quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-  }
-  return quoted + "'";
-}
 
 void add_read_options(Command& command, formats::ReadOptions& options) {
   auto& app = command.app;

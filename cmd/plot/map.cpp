@@ -42,13 +42,6 @@ Projection fit(const std::vector<Point>& points, const PageSize& size) {
   return {scale, {left->x + width / 2, low->y + height / 2}, {size.width / 2, size.height / 2}};
 }
 
-void draw_edge(cairo_t* page, std::span<const Index> ends, const std::vector<Point>& at) {
-  for (std::size_t k = 1; k < ends.size(); ++k) {
-    cairo_move_to(page, at[ends[0]].x, at[ends[0]].y);
-    cairo_line_to(page, at[ends[k]].x, at[ends[k]].y);
-  }
-}
-
 // Cairo takes long over a path of many lines that cross: where there are many, it gets them in pieces.
 void stroke(cairo_t* page, const std::vector<Segment>& segments, const std::vector<Point>& at) {
   constexpr std::size_t many = 5000, piece = 200;
@@ -66,14 +59,14 @@ void stroke(cairo_t* page, const std::vector<Segment>& segments, const std::vect
 }
 
 void draw_edges(cairo_t* page, const Graph& graph, const std::vector<graph::EdgeRole>& roles,
-                graph::EdgeRole role, const std::vector<Point>& at) {
+                graph::EdgeRole role, const std::vector<Point>& at, std::size_t most = 40000) {
   std::vector<Segment> segments;
   for (Index e = 0; e < graph.edges(); ++e) {
     const auto ends = graph.edge(e);
     for (std::size_t k = 1; k < ends.size() && roles[e] == role; ++k)
       segments.push_back({ends[0], ends[k]});
   }
-  stroke(page, thinned(std::move(segments), at), at);
+  stroke(page, thinned(std::move(segments), at, most), at);
 }
 
 void draw_dots(cairo_t* page, const Graph& graph, graph::Role role, const std::vector<Point>& at) {
@@ -159,6 +152,11 @@ Placed placed(const Graph& graph, const std::array<int, 2>& axes, const PageSize
 
 }  // namespace
 
+std::vector<Point> places(const Graph& graph, const std::array<int, 2>& axes,
+                          const PageSize& size) {
+  return placed(graph, axes, size).points;
+}
+
 void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
               const std::array<int, 2>& axes, const std::string& title,
               const std::vector<graph::EdgeRole>& only) {
@@ -208,25 +206,46 @@ void draw_faint_edges(cairo_t* page, const Graph& graph, const std::vector<Point
   cairo_set_line_width(page, 0.4);
   for (const graph::EdgeRole role :
        {graph::EdgeRole::observation, graph::EdgeRole::loop_closure, graph::EdgeRole::odometry}) {
-    draw_edges(page, graph, roles, role, points);
+    draw_edges(page, graph, roles, role, points, 10000);
   }
 }
 
-// Those that are not free, by their price, the dearest on top.
-void draw_priced_edges(cairo_t* page, const Graph& graph, const std::vector<Point>& points,
-                       const Costs& costs) {
-  std::vector<Index> ascending;
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (costs.edge[e] > 0) ascending.push_back(e);
-  }
-  std::ranges::stable_sort(ascending, {}, [&](Index e) { return costs.edge[e]; });
-  for (const Index e : ascending) {
-    const double value = std::sqrt(costs.edge[e] / costs.largest_edge);
+// Lines and dots by their step of heat.
+using Heated = std::array<std::vector<Segment>, heat_steps + 1>;
+
+std::size_t step_of(double value, double largest) {
+  return static_cast<std::size_t>(std::lround(heat_steps * std::sqrt(value / largest)));
+}
+
+constexpr std::size_t most_of_a_step = 2000;
+
+// Step by step, each one colour and one width, which grows by so much with the heat, the hottest on top.
+void draw_heated(cairo_t* page, Heated heated, const std::vector<Point>& at, double least,
+                 double growth) {
+  for (std::size_t k = 0; k < heated.size(); ++k) {
+    const double value = static_cast<double>(k) / heat_steps;
     set_color(page, heat(value));
-    cairo_set_line_width(page, 0.3 + 0.9 * value);
-    draw_edge(page, graph.edge(e), points);
-    cairo_stroke(page);
+    cairo_set_line_width(page, least + growth * value);
+    stroke(page, thinned(std::move(heated[k]), at, most_of_a_step), at);
   }
+}
+
+// Those that are not free.
+Heated priced_edges(const Graph& graph, const Costs& costs) {
+  Heated result;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    const auto ends = graph.edge(e);
+    for (std::size_t k = 1; k < ends.size() && costs.edge[e] > 0; ++k)
+      result[step_of(costs.edge[e], costs.largest_edge)].push_back({ends[0], ends[k]});
+  }
+  return result;
+}
+
+Heated variables_by_cost(const Costs& costs) {
+  Heated result;
+  for (const Index v : costs.ascending)
+    result[step_of(costs.vertex[v], costs.largest)].push_back({v, v});
+  return result;
 }
 
 }  // namespace
@@ -235,13 +254,10 @@ void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs) {
   const auto [points, scale] = placed(graph, axes, size);
   draw_faint_edges(page, graph, points);
-  draw_priced_edges(page, graph, points, costs);
-  for (const Index v : costs.ascending) {
-    const double value = std::sqrt(costs.vertex[v] / costs.largest);
-    set_color(page, heat(value));
-    cairo_arc(page, points[v].x, points[v].y, 0.7 + 1.8 * value, 0, 2 * M_PI);
-    cairo_fill(page);
-  }
+  draw_heated(page, priced_edges(graph, costs), points, 0.3, 0.9);
+  cairo_set_line_cap(page, CAIRO_LINE_CAP_ROUND);  // of lines without a length: dots
+  draw_heated(page, variables_by_cost(costs), points, 1.4, 3.6);
+  cairo_set_line_cap(page, CAIRO_LINE_CAP_BUTT);
   draw_scale_bar(page, size, scale);
   draw_cost_legend(page, size, costs);
 }

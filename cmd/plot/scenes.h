@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cmd/plot/thin.h"
 #include "lib/elim/score.h"
 #include "lib/graph/graph.h"
 #include "lib/graph/pattern.h"
@@ -24,6 +25,9 @@ struct PageSize {
 // In the plane z is 0. Throws an input Error for a vertex type that has no known place.
 std::vector<std::array<double, 3>> positions(const Graph& graph);
 
+// Where a map has them, on its page.
+std::vector<Point> places(const Graph& graph, const std::array<int, 2>& axes, const PageSize& size);
+
 // The map, seen along the axis that is left when `axes` (of 0, 1, 2) go to the right and up: the
 // path in blue, loop closures in orange, landmarks in green, observations as faint lines; of edges
 // those of `only`. A ring is where the poses begin, a square where they end; up to 50 vertices have
@@ -33,7 +37,8 @@ void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
               const std::vector<graph::EdgeRole>& only);
 
 // The same map with variables and edges coloured, variables by what they cost, edges by what EC would lose without
-// them: colour and size grow with the square root of that, the costliest on top; free edges are faint.
+// them: colour and size grow with the square root of that, in so many steps, the costliest on top; free edges are faint.
+constexpr int heat_steps = 32;
 struct Costs;
 void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
                    const std::array<int, 2>& axes, const Costs& costs);

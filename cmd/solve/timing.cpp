@@ -16,6 +16,8 @@ double median(std::vector<double> times) {
   return *middle;
 }
 
+}  // namespace
+
 Timing timed(const TimingOptions& options, const factor::Problem& problem,
              const factor::Values& values, factor::LinearSystem& system, const std::string& label,
              const graph::Order& order) {
@@ -41,8 +43,6 @@ Timing timed(const TimingOptions& options, const factor::Problem& problem,
           plan,
           median(times)};
 }
-
-}  // namespace
 
 const std::vector<cmd::Column<Timing>> time_columns{
     {"file", "The file", &Timing::file, "several files"},

@@ -35,7 +35,11 @@ struct TimingOptions {
   const factor::Loss& loss;
 };
 
-// A row an ordering, of the system at `values`. Throws a computation Error where that is singular.
+// Of one ordering, `label` its name. Throws a computation Error where the system, of the problem at `values`, is singular.
+Timing timed(const TimingOptions& options, const factor::Problem& problem,
+             const factor::Values& values, factor::LinearSystem& system, const std::string& label,
+             const graph::Order& order);
+// A row an ordering, of the system at `values`.
 void print_times(const TimingOptions& options, const factor::Problem& problem,
                  const factor::Values& values, cmd::Table<Timing>& table);
 

@@ -113,7 +113,8 @@ std::optional<double> take(Part& part, std::span<const Move> moves) {
 std::vector<Move> exchanged(const Choice& choice, const Evidence& evidence,
                             const EcGreedyOptions& options, std::vector<Move> moves) {
   Part part = make_part(choice, evidence, options);
-  if (moves.back().kept == static_cast<Index>(choice.candidates.size())) return moves;
+  const bool all_kept = moves.back().kept == static_cast<Index>(choice.candidates.size());
+  if (moves.size() < 2 || all_kept) return moves;
   std::optional<double> best = take(part, moves);
   EcGreedyOptions again = options;  // with other random vectors
   double share = first_share;

@@ -17,7 +17,7 @@
 
 namespace sg::prune {
 
-// These moves, and perhaps drops and moves after them, up to options.ec, within which the moves are.
+// These moves, and perhaps drops and moves after them, up to options.ec, within which the moves are. A start alone stays.
 std::vector<Move> exchanged(const Choice& choice, const Evidence& evidence,
                             const EcGreedyOptions& options, std::vector<Move> moves);
 

@@ -132,4 +132,11 @@ void mark_to_root(Isam2& isam, Index c) {
   }
 }
 
+void mark_all(Isam2& isam) {
+  for (Index c = 0; c < static_cast<Index>(isam.tree.cliques.size()); ++c) {
+    const Isam2Clique& clique = isam.tree.cliques[c];
+    if (is_there(clique) && !is_prior(clique)) mark_to_root(isam, c);
+  }
+}
+
 }  // namespace sg::solve

@@ -23,6 +23,7 @@ Index relinearize(Isam2& isam);
 
 // Marks clique c (none for -1) and its ancestors, to be taken out.
 void mark_to_root(Isam2& isam, Index c);
+void mark_all(Isam2& isam);
 
 // Step 3, algorithm 6 (isam2_top.cpp). Takes the marked cliques out, and eliminates their variables
 // and the new ones again: rows that the cliques held, the new ones, and what the orphans pass up. The

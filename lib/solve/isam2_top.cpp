@@ -14,10 +14,7 @@ void mark_all_if_many(Isam2& isam) {
   Index redone = 0;
   for (Index c : isam.work.marked) redone += isam.tree.cliques[c].frontals;
   if (redone <= reorder_all * isam.variables) return;
-  for (Index c = 0; c < static_cast<Index>(isam.tree.cliques.size()); ++c) {
-    const Isam2Clique& clique = isam.tree.cliques[c];
-    if (is_there(clique) && !is_prior(clique)) mark_to_root(isam, c);
-  }
+  mark_all(isam);
 }
 
 // The variables and rows of the top: the new ones and what the marked cliques hold. The orphans: what hangs below them.

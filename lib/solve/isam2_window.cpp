@@ -114,45 +114,67 @@ void note(Isam2Window& window, std::span<const Index> edges, Index k) {
   }
 }
 
-// What leaves with this step, as far as it is decided.
+// What leaves with this step, as far as it is decided: turn by turn the oldest pose with what no later one has seen, and
+// where the newest alone is left, its landmarks.
 struct Leaving {
   std::vector<Index> variables;
-  std::vector<std::size_t> end{0};  // of every number of poses, in `variables`
+  std::vector<std::size_t> end{0};  // of every number of turns, in `variables`
+  Index poses = 0;                  // of these turns
 
-  Index poses() const { return static_cast<Index>(end.size()) - 1; }
+  Index turns() const { return static_cast<Index>(end.size()) - 1; }
 };
 
-// The oldest pose, and what no later one has seen.
-void oldest_leaves(Isam2Window& window, Leaving& leaving) {
-  const Isam2Replay& replay = window.replay;
-  const std::vector<Index>& variable = replay.problem->variables.vertex_variable;
-  const auto leave = [&](Index v) {
-    if (variable[v] < 0 || window.left[v]) return;
-    window.left[v] = true;
-    window.replay.isam.leaving[variable[v]] = true;
-    leaving.variables.push_back(variable[v]);
-  };
-  const Index pose = replay.poses.pose[window.first];
+bool is_present(const Isam2Window& window, Index v) {
+  return window.replay.poses.index[v] < 0 && window.last_seen[v] >= 0 && !window.left[v];
+}
+
+void leave(Isam2Window& window, Index v, Leaving& leaving) {
+  const Index j = window.replay.problem->variables.vertex_variable[v];
+  if (j < 0 || window.left[v]) return;
+  window.left[v] = true;
+  window.replay.isam.leaving[j] = true;
+  leaving.variables.push_back(j);
+}
+
+void next_leaves(Isam2Window& window, Index k, Leaving& leaving) {
+  const Index pose = window.replay.poses.pose[window.first];
+  const bool newest = window.first == k;
   for (Index e : window.edges_of[pose]) {
-    for (Index v : replay.problem->graph->edge(e)) {
-      const bool there = replay.poses.index[v] < 0 && window.last_seen[v] >= 0;
-      if (there && window.last_seen[v] <= window.first) leave(v);
+    for (Index v : window.replay.problem->graph->edge(e)) {
+      if (!is_present(window, v) || window.last_seen[v] > window.first) continue;
+      if (newest && leaving.variables.size() > leaving.end.back()) continue;  // one of them
+      leave(window, v, leaving);
     }
   }
-  leave(pose);
+  if (!newest) {
+    leave(window, pose, leaving);
+    ++leaving.poses;
+    ++window.first;
+  }
   leaving.end.push_back(leaving.variables.size());
-  ++window.first;
 }
 
 void last_stays(Isam2Window& window, Leaving& leaving) {
   leaving.end.pop_back();
-  for (std::size_t k = leaving.end.back(); k < leaving.variables.size(); ++k) {
-    const Index j = leaving.variables[k];
+  for (std::size_t i = leaving.end.back(); i < leaving.variables.size(); ++i) {
+    const Index j = leaving.variables[i];
     window.left[window.replay.problem->variables.variable_vertex[j]] = false;
     window.replay.isam.leaving[j] = false;
   }
   leaving.variables.resize(leaving.end.back());
-  --window.first;
+  if (leaving.turns() < leaving.poses) {
+    --leaving.poses;
+    --window.first;
+  }
+}
+
+// How many turns there are at most.
+Index most_turns(const Isam2Window& window, Index k) {
+  Index turns = k - window.first;
+  for (Index e : window.edges_of[window.replay.poses.pose[k]]) {
+    for (Index v : window.replay.problem->graph->edge(e)) turns += is_present(window, v) ? 1 : 0;
+  }
+  return turns;
 }
 
 bool is_too_old(const Isam2Window& window, Index pose, Index k) {
@@ -161,22 +183,24 @@ bool is_too_old(const Isam2Window& window, Index pose, Index k) {
          window.travelled[k] - window.travelled[pose] > options.distance;
 }
 
-// The plan of the step when so many poses leave.
-CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index poses, Leaving& leaving) {
-  while (leaving.poses() < poses) oldest_leaves(window, leaving);
-  while (leaving.poses() > poses) last_stays(window, leaving);
+// The plan of step k after so many turns.
+CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Index turns,
+                     Leaving& leaving) {
+  while (leaving.turns() < turns) next_leaves(window, k, leaving);
+  while (leaving.turns() > turns) last_stays(window, leaving);
   mark_leaving(window.replay.isam, leaving.variables);
   return plan_top(window.replay.isam, entering.variables, entering.rows);
 }
 
-// As few poses leave as bring the plan below the budget, `least` of them and `most` at most.
-CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index least, Index most,
+// As few turns as bring the plan below the budget, `least` at least.
+CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, Index least,
                        Leaving& leaving) {
-  CliqueTree plan = plan_with(window, entering, least, leaving);
+  const Index most = most_turns(window, k);
+  CliqueTree plan = plan_with(window, entering, k, least, leaving);
   const elim::Wide budget = window.options.budget;
   if (budget == 0 || window.options.spend != Spend::window) return plan;
-  const auto fits = [&](Index poses) {
-    if (poses != leaving.poses()) plan = plan_with(window, entering, poses, leaving);
+  const auto fits = [&](Index turns) {
+    if (turns != leaving.turns()) plan = plan_with(window, entering, k, turns, leaving);
     return ec_after(window.replay.isam, plan, leaving.variables) <= budget;
   };
   if (fits(least)) return plan;
@@ -203,6 +227,7 @@ Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options
   Isam2Window window;
   window.replay = make_isam2_replay(problem, isam, min_obs, start_from_file);
   window.options = options;
+  window.renewal = {.factor = options.renew, .budget = options.budget};
   window.min_obs = min_obs;
   const Graph& graph = *problem.graph;
   window.left.assign(graph.vertices(), false);
@@ -221,10 +246,14 @@ Isam2Report update(Isam2Window& window, const Step& step, Index k) {
   note(window, step.edges, k);
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
+  if (is_worn(isam, window.renewal)) {
+    mark_all(isam);
+    ++window.renewed;
+  }
   Index least = 0;
   while (window.first + least < k && is_too_old(window, window.first + least, k)) ++least;
   Leaving leaving;
-  const CliqueTree plan = plan_within(window, entering, least, k - window.first, leaving);
+  const CliqueTree plan = plan_within(window, entering, k, least, leaving);
   redo_top(isam, entering.variables, entering.rows, plan, report);
   if (report.undetermined.empty()) report.finite = solve_down(isam);
   if (report.undetermined.empty() && report.finite)

@@ -11,7 +11,8 @@
 //             much, one more pose leaves, then two, then four, and then as few of them as do. So the window grows by a
 //             pose a step where there is room, and shrinks where there is none (Frey, Steiner, How propose this).
 //
-// A landmark leaves with the last pose that saw it. Edges that name what has left are dropped and counted. A landmark
+// A landmark leaves with the last pose that saw it, or before, where the newest pose with all of its landmarks is above
+// the budget. Edges that name what has left are dropped and counted. A landmark
 // enters when min_obs observations from poses that are there have come together: where the window is shorter than that
 // takes, it waits. Constants never leave.
 #pragma once
@@ -19,6 +20,7 @@
 #include <limits>
 
 #include "lib/solve/isam2_admission.h"
+#include "lib/solve/isam2_renew.h"
 #include "lib/solve/isam2_replay.h"
 
 namespace sg::solve {
@@ -35,6 +37,7 @@ struct WindowOptions {
   elim::Wide budget = 0;                                      // of EC_BT; 0: none
   Spend spend = Spend::window;
   bool smooth = false;  // keep the past for smooth_past
+  double renew = 0;     // order the whole anew beyond this factor (isam2_renew.h); 0: never
 };
 
 struct Isam2Window {
@@ -51,6 +54,8 @@ struct Isam2Window {
   std::vector<Index> last_seen;  // by vertex, no pose: pose index, -1 before it enters
   graph::Lists<> edges_of;       // by vertex
   Admission admission;
+  Renewal renewal;
+  Index renewed = 0;              // steps that ordered the whole anew
   std::vector<Index> incomplete;  // vertices that wait for observations, ascending
 };
 

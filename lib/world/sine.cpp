@@ -58,13 +58,39 @@ Index landmark_count(const Sine& world, double area) {
   return static_cast<Index>(count);
 }
 
-// Uniform in the slab, by ascending x.
+// The profile at x of a path that ends at `end`; constant beyond.
+double profile_at(const std::vector<double>& profile, double x, double end) {
+  if (profile.empty()) return 1;
+  const auto last = static_cast<double>(profile.size() - 1);
+  const double at = end > 0 ? std::clamp(x / end * last, 0.0, last) : 0;
+  const auto k = std::min(static_cast<std::size_t>(at), profile.size() - 1);
+  const double next = profile[std::min(k + 1, profile.size() - 1)];
+  return profile[k] + (at - static_cast<double>(k)) * (next - profile[k]);
+}
+
+// Of the profile, from `from` to `to`.
+double profile_mean(const std::vector<double>& profile, double from, double to, double end) {
+  if (profile.empty()) return 1;
+  constexpr int samples = 10000;
+  double sum = 0;
+  for (int i = 0; i < samples; ++i)
+    sum += profile_at(profile, from + (i + 0.5) * (to - from) / samples, end);
+  return sum / samples;
+}
+
+// Uniform in the slab but for the profile, by ascending x.
 std::vector<Eigen::Vector3d> scattered_landmarks(const Sine& world, double end) {
   const double from = -world.optics.range, to = end + world.optics.range;
   Random random = random_stream(world.seed, Stream::structure);
-  std::vector<Eigen::Vector3d> landmarks(landmark_count(world, (to - from) * 2 * world.width));
+  const double area = (to - from) * 2 * world.width;
+  const double most = world.profile.empty() ? 1 : *std::ranges::max_element(world.profile);
+  std::vector<Eigen::Vector3d> landmarks(
+      landmark_count(world, area * profile_mean(world.profile, from, to, end)));
   for (auto& l : landmarks) {
-    l.x() = rounded(uniform(random, from, to));
+    do {
+      l.x() = rounded(uniform(random, from, to));
+    } while (!world.profile.empty() &&
+             uniform(random, 0, most) >= profile_at(world.profile, l.x(), end));
     l.y() = rounded(uniform(random, -world.width, world.width));
     l.z() = rounded(uniform(random, -world.height, world.height));
   }

@@ -16,6 +16,8 @@ struct Sine {
   double wavelength = 60;  // metres
   Index landmarks = 0;     // in the slab, seen or not; 0: `density` of them a square metre
   double density = 0.115;  // of landmarks, a square metre of the slab seen from above
+  // Times this, from the path's begin to its end, linear between; empty: 1.
+  std::vector<double> profile = {};
   double width = 30;       // landmarks lie within so many metres of the path's axis
   double height = 5;       // and within so many metres above and below it
   Triangulation landmark;  // that a landmark needs to be in the graph

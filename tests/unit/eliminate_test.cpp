@@ -186,7 +186,7 @@ TEST_CASE("kernels: solves of many right-hand sides by row, and products of colu
       const int f = draw(random, 1, 30), n = f + 1 + draw(random, 0, 30);
       const int columns = draw(random, 1, 70), ldx = sg::solve::round_up(columns);
       INFO("f " << f << ", n " << n << ", columns " << columns);
-      DenseFront dense(random, f, n);
+      DenseFront dense(random, f, n - f - 1);
       const sg::solve::Run all[] = {{0, 0, n}};
       kernel->clear(dense.front);
       kernel->add(dense.front, dense.full.data(), n, all, 1);

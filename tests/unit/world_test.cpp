@@ -227,6 +227,26 @@ TEST_CASE("the noise of worst is what its information claims", "[world]") {
   }
 }
 
+TEST_CASE("a sine world's density follows its profile", "[world]") {
+  sg::world::Sine world;
+  world.poses = 4000;
+  const auto thirds = [&](std::vector<double> profile) {
+    world.profile = std::move(profile);
+    const sg::world::LandmarkGraph graph = sg::world::sine(world);
+    const double end = graph.poses.back().x;
+    std::vector<int> count(3);
+    for (const auto& l : graph.landmarks) {
+      if (0 <= l.x() && l.x() < end) ++count[static_cast<std::size_t>(3 * l.x() / end)];
+    }
+    return count;
+  };
+  const std::vector<int> even = thirds({}), same = thirds({1}), uneven = thirds({1, 0, 0, 2});
+  for (std::size_t k = 0; k < 3; ++k) CHECK(same[k] == Approx(even[k]).epsilon(0.15));
+  CHECK(uneven[0] == Approx(0.5 * even[0]).epsilon(0.15));
+  CHECK(uneven[1] == 0);
+  CHECK(uneven[2] == Approx(even[2]).epsilon(0.15));
+}
+
 TEST_CASE("a world that no graph can hold is refused before it is made", "[world]") {
   sg::world::Sine dense;
   dense.density = 1e9;

@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 CALLS = ["sg-bayes", "sg-check", "sg-convert", "sg-cut --largest", "sg-dec -r 2", "sg-ec", "sg-ecgreedy -r 2", "sg-elim", "sg-gen sine", "sg-info",
-         "sg-isam2", "sg-kf -r 2", "sg-order", "sg-plot map", "sg-predict -r 2 -", "sg-rand -r 2", "sg-score", "sg-solve",
+         "sg-isam2", "sg-kf -r 2", "sg-order", "sg-plot map", "sg-predict -r 2 -", "sg-rand -r 2", "sg-report", "sg-score", "sg-solve",
          "sg-tgreedy -r 2"]
 
 

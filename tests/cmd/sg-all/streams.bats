@@ -50,7 +50,7 @@ interrupt() { python3 "$BATS_TEST_DIRNAME/interrupt.py" "$1"; }
 
 @test "-v tells what was read, each stage, and the peak memory, in aligned lines" {
   for call in sg-bayes sg-check sg-convert 'sg-cut --largest' 'sg-dec -r 2' sg-ec 'sg-ecgreedy -r 2' sg-elim sg-info sg-isam2 'sg-kf -r 2' 'sg-marg -r 2' sg-order \
-    'sg-plot map' 'sg-predict -r 2' 'sg-rand -r 2' sg-score sg-solve 'sg-tgreedy -r 2'; do
+    'sg-plot map' 'sg-predict -r 2' 'sg-rand -r 2' sg-report sg-score sg-solve 'sg-tgreedy -r 2'; do
     name=${call%% *}
     echo "$name"
     $call -v graph.g2o 2>log >/dev/null
@@ -70,7 +70,7 @@ interrupt() { python3 "$BATS_TEST_DIRNAME/interrupt.py" "$1"; }
 
 @test "a limit of the size of files is told, and nothing is left" {
   for call in sg-bayes sg-convert 'sg-cut --largest' 'sg-dec -r 2' sg-ec 'sg-ecgreedy -r 2' sg-elim sg-info 'sg-kf -r 2' 'sg-marg -r 2' sg-order 'sg-plot map' \
-    'sg-rand -r 2' sg-score sg-solve 'sg-tgreedy -r 2'; do
+    'sg-rand -r 2' sg-report sg-score sg-solve 'sg-tgreedy -r 2'; do
     name=${call%% *} out=out
     if [ "$name" = sg-plot ]; then out=out.svg; fi
     fails 3 "$name: $out: cannot write: File too large" bash -c "ulimit -f 0; exec $call graph.g2o -o $out"
@@ -81,7 +81,7 @@ interrupt() { python3 "$BATS_TEST_DIRNAME/interrupt.py" "$1"; }
 
 @test "an output that cannot be made is told before the graph is read" {
   for call in sg-bayes sg-check sg-convert 'sg-cut --largest' 'sg-dec -r 2' sg-ec 'sg-ecgreedy -r 2' sg-elim sg-info sg-isam2 'sg-kf -r 2' 'sg-marg -r 2' sg-order \
-    'sg-plot map' 'sg-predict -r 2' 'sg-rand -r 2' sg-score sg-solve 'sg-tgreedy -r 2'; do
+    'sg-plot map' 'sg-predict -r 2' 'sg-rand -r 2' sg-report sg-score sg-solve 'sg-tgreedy -r 2'; do
     fails 3 "${call%% *}: no/out.svg: cannot create: No such file or directory" $call missing.g2o -o no/out.svg
   done
 }

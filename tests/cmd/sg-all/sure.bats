@@ -3,7 +3,7 @@ load ../common
 # What no command may get wrong. Each of these reads a graph; each of the filters writes one as well. sg-check, which reads
 # on where others stop, and sg-gen, which reads nothing, have their own lines below.
 filters=('sg-cut --largest' sg-merge 'sg-order -m id' 'sg-dec -r 2' 'sg-rand -r 2' 'sg-kf -r 2' 'sg-marg -r 2' 'sg-tgreedy -r 2' 'sg-ecgreedy -r 2')
-readers=("${filters[@]}" sg-bayes sg-convert sg-cov 'sg-diff walk.g2o' sg-ec sg-elim sg-info sg-isam2 'sg-plot map' 'sg-predict -r 2' sg-score sg-solve)
+readers=("${filters[@]}" sg-bayes sg-convert sg-cov 'sg-diff walk.g2o' sg-ec sg-elim sg-info sg-isam2 'sg-plot map' 'sg-predict -r 2' sg-report sg-score sg-solve)
 
 setup() { cd "$BATS_TEST_TMPDIR"; cp "$TESTDATA/walk.g2o" .; }
 

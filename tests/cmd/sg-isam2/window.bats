@@ -103,6 +103,15 @@ corridor() {
   near "$chi2" "$(sg-isam2 -f chi2 --no-header world.g2o | tail -n 1)" 0.01
 }
 
+@test "--renew: the tree is ordered anew when it is worn, and says the same" {
+  sg-gen manhattan -n 400 -o world.g2o
+  sg-isam2 --renew 1.2 -f ec_bt,renewed,chi2 --no-header world.g2o | tail -n 1 > renewed.tsv
+  [ "$(cut -f 2 renewed.tsv)" -gt 0 ]
+  [ "$(sg-isam2 --renew 1e9 -f renewed --no-header world.g2o | tail -n 1)" = 0 ]
+  near "$(cut -f 3 renewed.tsv)" "$(sg-isam2 -f chi2 --no-header world.g2o | tail -n 1)" 0.01
+  run -2 sg-isam2 --renew 0.5 world.g2o
+}
+
 @test "--budget-ms: an EC that follows what steps take" {
   sg-gen manhattan -n 200 -o world.g2o
   sg-isam2 -q --budget-ms 1000 -f window,budget --no-header world.g2o > rows.tsv
