@@ -484,8 +484,8 @@ TEST_CASE("greedy and exchange are near the best of all subsets", "[ecgreedy]") 
       ++points;
     }
   }
-  WARN("mean share of the best fall of variance at equal EC: greedy "
+  INFO("mean share of the best fall of variance at equal EC: greedy "
        << greedy_share / points << ", exchanged " << exchange_share / points);
-  CHECK(greedy_share / points > 0.97);
+  CHECK(greedy_share / points > 0.99);
   CHECK(exchange_share / points > 0.99);
 }
