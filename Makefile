@@ -19,7 +19,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers budget starts marginalize lint format clean
+.PHONY: help deps build demo check mutants install uninstall deb bench fuzz tsan paper orderings outliers budget starts marginalize lint format clean picture
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -74,6 +74,9 @@ deb: build build/packages/deb ## make Debian packages, sgtools and libsgtools-de
 	@rm -rf $(BUILD)/packages
 	@cd $(BUILD) && cpack -G DEB >/dev/null
 	@tests/install/deb $(BUILD)/packages
+
+picture: build ## draw the picture of the README
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -f experiments/demo/Makefile picture
 
 bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
 	@$(call configure,$(commands_alone) -DSGTOOLS_BENCH=ON)

@@ -8,6 +8,7 @@
 #include "cmd/common/options.h"
 #include "cmd/common/ranges.h"
 #include "lib/marginalize/marginalize.h"
+#include "lib/order/order.h"
 #include "lib/prune/keyframes.h"
 #include "lib/text/words.h"
 
@@ -28,6 +29,7 @@ struct Options {
   std::string cluster = "online";
   marginalize::Sparsity sparsity;
   std::optional<Index> pairs;
+  std::optional<double> ec, ec_part;
   bool conservative = false;
 };
 
@@ -58,7 +60,7 @@ void add_options(cmd::Command& command, Options& options) {
   CLI::App& app = command.app;
   add_selection(app, options);
   app.add_option("--topology", options.topology,
-                 "Of what comes instead: dense, tree (default),\nsubgraph, l1, seif")
+                 "Of what comes instead: dense, tree (default),\nsubgraph, l1, seif, ec")
       ->option_text("KIND")
       ->check(cmd::one_of(marginalize::topology_names()));
   app.add_option("--as", options.as,
@@ -80,6 +82,16 @@ void add_options(cmd::Command& command, Options& options) {
                  "seif: of a link's correlation (default: 0.1)")
       ->type_name("T")
       ->check(cmd::number(0, 1));
+  app.add_option("--price", options.sparsity.price,
+                 "ec: what EC has to bring, as a multiple of what\na tree loses (default: 1)")
+      ->type_name("P")
+      ->check(cmd::number(0));
+  app.add_option("--ec", options.ec, "ec: as much as leaves an EC of EC, or")
+      ->type_name("EC")
+      ->check(cmd::above_zero());
+  app.add_option("--ec-part", options.ec_part, "of this part of the whole graph's")
+      ->type_name("PART")
+      ->check(cmd::above_zero());
   app.add_flag("--conservative", options.conservative, "Never know more than there was known");
   cmd::add_filter_output(command, options.output);
 }
@@ -110,6 +122,13 @@ void check_call(const cmd::Command& command, const Options& options) {
   if (options.topology != "l1") cmd::refuse(command.app, {"--penalty"}, "but with --topology l1");
   if (options.topology != "seif")
     cmd::refuse(command.app, {"--threshold"}, "but with --topology seif");
+  if (options.topology != "ec")
+    cmd::refuse(command.app, {"--price", "--ec", "--ec-part"}, "but with --topology ec");
+  cmd::at_most_one(command.app,
+                   {{"--price", "says what EC has to bring"},
+                    {"--ec", "how much of it there may be"},
+                    {"--ec-part", "what part of it"}},
+                   "how much EC?");
 }
 
 // What --ids says: a list of ids and ranges, or the name of a file that holds them.
@@ -188,13 +207,32 @@ std::vector<bool> chosen_vertices(const Graph& graph, const Options& options) {
   return removed;
 }
 
-marginalize::Rule rule_of(const Options& options) {
+elim::Wide complexity(const graph::Pattern& pattern) {
+  return elim::elimination_complexity(pattern, order::elimination_order("wmf", pattern));
+}
+
+// A warning where what is left costs more than it may.
+void check_budget(const cmd::Command& command, const marginalize::Rule& rule, const Graph& graph,
+                  const marginalize::Marginalization& result) {
+  if (!rule.sparsity.ec) return;
+  const elim::Wide ec = complexity(marginalize::pattern_left(graph, result).pattern);
+  if (elim::to_double(ec) > *rule.sparsity.ec)
+    cmd::warn(command, "an EC of " + text::format_number(*rule.sparsity.ec) +
+                           " is less than that of the sparsest graph found, " +
+                           elim::to_string(ec));
+}
+
+marginalize::Rule rule_of(const Options& options, const Graph& graph) {
   marginalize::Rule rule;
   rule.sparsity = options.sparsity;
   rule.sparsity.topology = *marginalize::topology(options.topology);
   rule.sparsity.extra = options.pairs.value_or(-1);
   rule.linear = options.topology == "dense" && options.as != "poses";
   rule.conservative = options.conservative;
+  rule.sparsity.ec = options.ec;
+  if (options.ec_part)
+    rule.sparsity.ec =
+        *options.ec_part * elim::to_double(complexity(graph::graph_pattern(graph).pattern));
   if (options.cluster == "batch") rule.clusters = marginalize::Clusters::batch;
   if (options.cluster == "global") rule.clusters = marginalize::Clusters::global;
   return rule;
@@ -215,11 +253,13 @@ void run(const cmd::Command& command, const Options& options) {
   cmd::stage("remove", count);
   const factor::Problem problem = factor::make_problem(graph);
   const factor::Values values = factor::file_values(problem);
+  const marginalize::Rule rule = rule_of(options, graph);
   marginalize::Marginalization result = marginalize::marginalize(
-      {problem, values}, removed, rule_of(options), [](Index gone) { cmd::progress(gone); });
+      {problem, values}, removed, rule, [](Index gone) { cmd::progress(gone); });
+  check_budget(command, rule, graph, result);
   cmd::note("took out " + std::to_string(count) + " of " + std::to_string(graph.vertices()) +
             " vertices, " + std::to_string(std::ranges::count(result.edge, true)) + " of " +
-            std::to_string(graph.edges()) + " edges; " + std::to_string(result.factors) +
+            std::to_string(graph.edges()) + " edges; " + std::to_string(result.factors.size()) +
             " come instead, divergence " + text::format_number(result.divergence));
   formats::Changes changes = formats::unchanged(graph);
   changes.drop_vertex = std::move(result.vertex);

@@ -43,8 +43,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
       ->allow_extra_args(false);
   cmd::add_seed(app, options.seed, "Seed of methods that draw or break ties");
-  app.add_option("--budget", options.budget, "Of best: seconds, or Nt for N tries (default: 200t)")
-      ->option_text("SECONDS|Nt");
+  cmd::add_budget(app, options.budget);
   app.add_flag("--print", options.print, "Print the ids in their order instead of the graph");
   cmd::add_filter_output(command, options.output);
 }

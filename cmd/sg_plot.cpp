@@ -23,7 +23,8 @@ struct Options {
   cmd::Input input;
   cmd::OutputOptions output;
   cmd::MethodOptions method;
-  std::string plane = "xy";
+  std::string plane;
+  std::vector<double> view;  // azimuth, elevation
   bool cost = false;
   bool sigma = false;
   std::vector<std::string> only;
@@ -43,9 +44,14 @@ void add_options(cmd::Command& command, Options& options) {
       ->option_text(" ");
   app.add_flag("--sigma", options.sigma, "Of a map: ellipses of one standard deviation")
       ->option_text(" ");
-  app.add_option("--plane", options.plane, "Of a map: xy (default), xz or yz")
+  app.add_option("--plane", options.plane, "Of a map: xy, xz or yz (default: where it is widest)")
       ->check(cmd::one_of({"xy", "xz", "yz"}))
       ->option_text("PLANE");
+  app.add_option("--view", options.view, "Of a map: from where, in degrees; 0,90: above")
+      ->delimiter(',')
+      ->expected(2)
+      ->allow_extra_args(false)
+      ->option_text("AZIMUTH,ELEVATION");
   app.add_option("--only", options.only, "Of a map: these edges: odometry, loops, observations")
       ->check(cmd::one_of({"odometry", "loops", "observations"}))
       ->delimiter(',')
@@ -61,9 +67,9 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_output(app, options.output, "Write to FILE, whole or not at all", cmd::Writes::other);
 }
 
-// Of every vertex, its position's in the plane of two axes.
+// Of every vertex, its position's, as the map shows it.
 std::vector<score::Ellipse> ellipses(const Graph& graph, const graph::Order& order,
-                                     const std::array<int, 2>& axes) {
+                                     const plot::View& view) {
   const factor::Problem problem = factor::make_problem(graph);
   const factor::Values values = factor::start_values(problem);
   auto elimination = score::eliminated(problem, values, order);
@@ -75,7 +81,7 @@ std::vector<score::Ellipse> ellipses(const Graph& graph, const graph::Order& ord
         problem.space[v], values.data() + problem.value_at[v], covariances[v]);
     Eigen::Matrix3d in_space = Eigen::Matrix3d::Zero();
     in_space.topLeftCorner(position.rows(), position.cols()) = position;
-    result.push_back(score::ellipse(in_space(axes, axes)));
+    result.push_back(score::ellipse(view * in_space * view.transpose()));
   }
   return result;
 }
@@ -104,24 +110,34 @@ std::vector<graph::EdgeRole> shown_edges(const Options& options) {
   return roles;
 }
 
+plot::View seen_from(const Options& options, const Graph& graph) {
+  if (!options.view.empty()) return plot::view_from(options.view[0], options.view[1]);
+  return options.plane.empty() ? plot::best_view(graph) : plot::plane_view(options.plane);
+}
+
 void draw(cairo_t* page, const Options& options, const Graph& graph) {
   const bool map = options.what == "map";
-  const std::array axes{options.plane[0] - 'x', options.plane[1] - 'x'};
   const graph::GraphPattern variables = graph::graph_pattern(graph);
   const auto [name, order] = cmd::named_order(options.method, graph, variables);
+  const plot::View view = map ? seen_from(options, graph) : plot::View{};
   if (map && !options.cost && !options.sigma)
-    return plot::draw_map(page, options.size, graph, axes, title(graph, variables, name, order),
+    return plot::draw_map(page, options.size, graph, view, title(graph, variables, name, order),
                           shown_edges(options));
   if (options.sigma) {
-    return plot::draw_sigma_map(page, options.size, graph, axes, ellipses(graph, order, axes));
+    return plot::draw_sigma_map(page, options.size, graph, view, ellipses(graph, order, view));
   }
   if (map) {
-    return plot::draw_cost_map(page, options.size, graph, axes,
+    return plot::draw_cost_map(page, options.size, graph, view,
                                plot::costs(variables, order, name));
   }
   if (options.what == "pattern") {
     plot::draw_pattern(page, options.size, variables.pattern, order);
-    return plot::draw_title(page, options.size, title(graph, variables, name, order), 12, 9, 8);
+    const elim::Wide nnz = elim::column_score(elim::symbolic(variables.pattern, order)).nnz;
+    const elim::Wide fill = nnz - elim::system_nnz(variables.pattern);
+    return plot::draw_title(page, options.size,
+                            title(graph, variables, name, order) + ", " + elim::to_string(nnz) +
+                                " entries, " + elim::to_string(fill) + " of them fill",
+                            12, 9, 8);
   }
   plot::draw_tree(page, options.size, elim::symbolic(variables.pattern, order));
   plot::draw_title(page, options.size, title(graph, variables, name, order), 12, 9, 8);
@@ -129,8 +145,10 @@ void draw(cairo_t* page, const Options& options, const Graph& graph) {
 
 void run(const cmd::Command& command, const Options& options) {
   if (options.what != "map")
-    cmd::refuse(command.app, {"--cost", "--sigma", "--plane", "--only"},
+    cmd::refuse(command.app, {"--cost", "--sigma", "--plane", "--view", "--only"},
                 "on a " + options.what + ", only on a map");
+  cmd::at_most_one(command.app,
+                   {{"--plane", "looks along an axis"}, {"--view", "from where it says"}});
   cmd::at_most_one(command.app, {{"--cost", "colours what costs"}, {"--sigma", "draws ellipses"}});
   if (options.cost) cmd::refuse(command.app, {"--only"}, "with --cost, which colours all edges");
   if (options.sigma) cmd::refuse(command.app, {"--only"}, "with --sigma, whose edges are faint");

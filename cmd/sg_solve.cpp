@@ -75,6 +75,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
       ->option_text("ID,...");
   cmd::add_methods(command, options.method);
+  cmd::add_budget(command.app, options.method.budget);
   app.add_option("--backend", options.backend, "Eliminate by " + solve::backend_names())
       ->check(cmd::suggests(text::names_of(solve::backends())))
       ->option_text("NAME");
@@ -281,7 +282,8 @@ void check_call(const cmd::Command& command, const Options& options) {
                          {"--time", "times eliminations"}});
   const std::initializer_list<const char*> optimizing{
       "--gn", "-i", "--tolerance", "--keep", "--no-trace-comment", "--gnc", "--weights"};
-  const std::initializer_list<const char*> eliminating{"-m", "--seed", "--backend", "-j"};
+  const std::initializer_list<const char*> eliminating{"-m", "--seed", "--budget", "--backend",
+                                                       "-j"};
   for (const std::string job : {"--chi2", "--residuals", "--certify", "--time"}) {
     if (cmd::given(app, job))
       cmd::refuse(app, optimizing, "with " + job + ", which does not optimize");
@@ -291,7 +293,7 @@ void check_call(const cmd::Command& command, const Options& options) {
       cmd::refuse(app, eliminating, "with " + job + ", which eliminates nothing");
   }
   if (options.certify)
-    cmd::refuse(app, {"-m", "--seed", "--backend", "-j", "--kernel"}, "with --certify");
+    cmd::refuse(app, {"-m", "--seed", "--budget", "--backend", "-j", "--kernel"}, "with --certify");
   if (options.runs == 0 && !options.residuals && !options.certify && options.weights.empty())
     cmd::refuse_table(app, "without --time, --residuals, --weights or --certify");
   if (options.runs == 0 && options.method.names.size() > 1)
@@ -306,6 +308,7 @@ void run(const cmd::Command& command, const Options& options) {
   check_call(command, options);  // a wrong call is told before a long read
   solve::find_backend(options.backend);
   cmd::check(options.method);
+  cmd::check_budget(command, options.method);
   solve::kernels();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 

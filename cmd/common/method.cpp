@@ -1,5 +1,7 @@
 #include "cmd/common/method.h"
 
+#include <algorithm>
+
 #include "cmd/common/complete.h"
 #include "cmd/common/options.h"
 #include "lib/text/nearest.h"
@@ -31,6 +33,18 @@ void add_method(Command& command, MethodOptions& options) {
   add(command, options, "METHOD", 1);
 }
 
+void add_budget(CLI::App& app, std::string& budget) {
+  app.add_option("--budget", budget, "Of best: seconds, or Nt for N tries (default: 200t)")
+      ->option_text("SECONDS|Nt");
+}
+
+void check_budget(const Command& command, const MethodOptions& options) {
+  if (std::ranges::find(options.names, "best") == options.names.end()) {
+    refuse(command.app, {"--budget"}, "without -m best");
+  }
+  if (!options.budget.empty()) order::parse_budget(options.budget);
+}
+
 void check(const MethodOptions& options) {
   for (const auto& name : options.names) order::find_ordering(name);
 }
@@ -57,6 +71,7 @@ graph::Order order_by(const Method& method, const MethodOptions& options, const 
                       const graph::GraphPattern& variables) {
   order::OrderOptions order_options = order::order_options(graph, variables);
   order_options.seed = options.seed;
+  if (!options.budget.empty()) order_options.budget = order::parse_budget(options.budget);
   stop_when_interrupted(*method.ordering, order_options);
   return order::elimination_order(*method.ordering, variables.pattern, order_options);
 }

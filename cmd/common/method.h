@@ -12,9 +12,14 @@ namespace sg::cmd {
 struct MethodOptions {
   std::vector<std::string> names;  // empty: the file's order if sg-order left one, else the default
   std::uint64_t seed = 0;
+  std::string budget = {};  // of best, as --budget has it; empty: its default
 };
 void add_methods(Command& command, MethodOptions& options);  // -m NAME,...
 void add_method(Command& command, MethodOptions& options);   // -m NAME
+
+// --budget, which is nothing without -m best.
+void add_budget(CLI::App& app, std::string& budget);
+void check_budget(const Command& command, const MethodOptions& options);
 
 // Throws a usage Error for a name that no ordering has: worth knowing before a graph is read.
 void check(const MethodOptions& options);

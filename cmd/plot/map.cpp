@@ -1,5 +1,7 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -140,10 +142,11 @@ struct Placed {
   double scale;               // points a metre
 };
 
-Placed placed(const Graph& graph, const std::array<int, 2>& axes, const PageSize& size) {
+Placed placed(const Graph& graph, const View& view, const PageSize& size) {
   std::vector<Point> points;
   for (const auto& position : positions(graph)) {
-    points.push_back({position[axes[0]], position[axes[1]]});
+    const Eigen::Vector2d seen = view * Eigen::Vector3d::Map(position.data());
+    points.push_back({seen.x(), seen.y()});
   }
   const Projection project = fit(points, size);
   std::transform(points.begin(), points.end(), points.begin(), project);
@@ -152,15 +155,43 @@ Placed placed(const Graph& graph, const std::array<int, 2>& axes, const PageSize
 
 }  // namespace
 
-std::vector<Point> places(const Graph& graph, const std::array<int, 2>& axes,
-                          const PageSize& size) {
-  return placed(graph, axes, size).points;
+View plane_view(const std::string& plane) {
+  View view = View::Zero();
+  for (int k = 0; k < 2; ++k) view(k, plane[k] - 'x') = 1;
+  return view;
 }
 
-void draw_map(cairo_t* page, const PageSize& size, const Graph& graph,
-              const std::array<int, 2>& axes, const std::string& title,
-              const std::vector<graph::EdgeRole>& only) {
-  const auto [points, scale] = placed(graph, axes, size);
+View view_from(double azimuth, double elevation) {
+  const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
+  View view;
+  view << std::cos(a), std::sin(a), 0,  //
+      -std::sin(a) * std::sin(e), std::cos(a) * std::sin(e), std::cos(e);
+  return view;
+}
+
+View best_view(const Graph& graph) {
+  const auto points = positions(graph);
+  const bool flat = std::ranges::all_of(points, [](const auto& p) { return p[2] == 0; });
+  if (flat || points.size() < 3) return plane_view("xy");
+  const Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Map(points.front().data(), 3, points.size());
+  const Eigen::Matrix3Xd around = all.colwise() - all.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(around * around.transpose());
+  View view = axes.eigenvectors().rightCols<2>().rowwise().reverse().transpose();
+  for (int k = 0; k < 2; ++k) {  // an axis has two directions: the one along its largest coordinate
+    int largest = 0;
+    view.row(k).cwiseAbs().maxCoeff(&largest);
+    if (view(k, largest) < 0) view.row(k) *= -1;
+  }
+  return view;
+}
+
+std::vector<Point> places(const Graph& graph, const View& view, const PageSize& size) {
+  return placed(graph, view, size).points;
+}
+
+void draw_map(cairo_t* page, const PageSize& size, const Graph& graph, const View& view,
+              const std::string& title, const std::vector<graph::EdgeRole>& only) {
+  const auto [points, scale] = placed(graph, view, size);
   std::vector<graph::EdgeRole> roles = graph::edge_roles(graph, graph::pose_index(graph));
   for (graph::EdgeRole& role : roles) {
     if (std::ranges::find(only, role) == only.end()) role = graph::EdgeRole::other;
@@ -250,9 +281,9 @@ Heated variables_by_cost(const Costs& costs) {
 
 }  // namespace
 
-void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph,
-                   const std::array<int, 2>& axes, const Costs& costs) {
-  const auto [points, scale] = placed(graph, axes, size);
+void draw_cost_map(cairo_t* page, const PageSize& size, const Graph& graph, const View& view,
+                   const Costs& costs) {
+  const auto [points, scale] = placed(graph, view, size);
   draw_faint_edges(page, graph, points);
   draw_heated(page, priced_edges(graph, costs), points, 0.3, 0.9);
   cairo_set_line_cap(page, CAIRO_LINE_CAP_ROUND);  // of lines without a length: dots
@@ -295,9 +326,9 @@ void draw_ellipse(cairo_t* page, const Point& at, const score::Ellipse& ellipse,
 
 }  // namespace
 
-void draw_sigma_map(cairo_t* page, const PageSize& size, const Graph& graph,
-                    const std::array<int, 2>& axes, const std::vector<score::Ellipse>& ellipses) {
-  const auto [points, scale] = placed(graph, axes, size);
+void draw_sigma_map(cairo_t* page, const PageSize& size, const Graph& graph, const View& view,
+                    const std::vector<score::Ellipse>& ellipses) {
+  const auto [points, scale] = placed(graph, view, size);
   draw_faint_edges(page, graph, points);
   double longest = 0;
   for (const score::Ellipse& ellipse : ellipses) longest = std::max(longest, ellipse.axes[0]);

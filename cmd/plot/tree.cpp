@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
 #include "lib/elim/bayes_tree.h"
@@ -10,72 +11,43 @@ namespace sg::plot {
 namespace {
 
 constexpr double margin = 24;
+constexpr double narrowest = 0.15;  // points: less is not seen
 
-// Where cliques stand: `across` counts leaves from the left, `down` the levels.
-struct Layout {
-  std::vector<double> across;
-  std::vector<int> down;
-  double leaves = 0;
-  int levels = 0;
+struct CliqueCosts {
+  std::vector<double> own;    // of every clique: d_f (d_f + d_s)^2
+  std::vector<double> below;  // with all that hangs on it
 };
 
-// Leaves side by side in the order of a walk through the tree, every other clique above the middle
-// of its children.
-Layout layout(const elim::BayesTree& tree) {
-  const graph::Lists<> children = graph::grouped(tree.parent, tree.cliques());
-  Layout result;
-  result.across.assign(tree.cliques(), 0);
-  result.down.assign(tree.cliques(), 0);
-  std::vector<Index> waiting;
-  for (Index c = tree.cliques() - 1; c >= 0; --c) {
-    if (tree.parent[c] < 0) waiting.push_back(c);
-  }
-  while (!waiting.empty()) {
-    const Index c = waiting.back();
-    waiting.pop_back();
-    if (children[c].empty()) result.across[c] = result.leaves++;
-    waiting.insert(waiting.end(), children[c].rbegin(), children[c].rend());
-  }
-  for (Index c = 0; c < tree.cliques(); ++c) {
-    if (tree.parent[c] >= 0) result.down[c] = result.down[tree.parent[c]] + 1;
-    result.levels = std::max(result.levels, result.down[c] + 1);
-  }
+CliqueCosts costs_of(const elim::BayesTree& tree) {
+  CliqueCosts costs;
+  for (Index c = 0; c < tree.cliques(); ++c)
+    costs.own.push_back(
+        elim::to_double(elim::elimination_cost(tree.frontal_dim[c], tree.total_dim[c])));
+  costs.below = costs.own;
   for (Index c = tree.cliques() - 1; c >= 0; --c) {  // children come after their parents
-    if (children[c].empty()) continue;
-    result.across[c] = (result.across[children[c].front()] + result.across[children[c].back()]) / 2;
+    if (tree.parent[c] >= 0) costs.below[tree.parent[c]] += costs.below[c];
   }
-  return result;
+  return costs;
 }
 
-struct Place {
-  double x, y;
-};
-
-struct Places {
-  std::vector<Place> at;  // of every clique
-  double largest_radius;  // circles of neighbouring levels just touch, as long as they can be seen
-};
-
-Places places(const Layout& layout, const PageSize& size) {
-  const double column = (size.width - 2 * margin) / std::max(1.0, layout.leaves);
-  const double row = (size.height - 2 * margin) / std::max(1, layout.levels - 1);
-  Places result{{}, std::clamp(row / 2, 1.5, margin)};
-  for (std::size_t c = 0; c < layout.across.size(); ++c) {
-    result.at.push_back(
-        {margin + column * (layout.across[c] + 0.5), margin + row * layout.down[c]});
-  }
-  return result;
-}
-
-void draw_branches(cairo_t* page, const elim::BayesTree& tree, const std::vector<Place>& at) {
-  set_color(page, faint_color);
-  cairo_set_line_width(page, 0.5);
+std::vector<int> depths(const elim::BayesTree& tree) {
+  std::vector<int> depth(tree.cliques(), 0);
   for (Index c = 0; c < tree.cliques(); ++c) {
-    if (tree.parent[c] < 0) continue;
-    cairo_move_to(page, at[tree.parent[c]].x, at[tree.parent[c]].y);
-    cairo_line_to(page, at[c].x, at[c].y);
+    if (tree.parent[c] >= 0) depth[c] = depth[tree.parent[c]] + 1;
   }
-  cairo_stroke(page);
+  return depth;
+}
+
+// Where the cells of a clique's children begin, or those of all roots: side by side, in the order of their numbers.
+std::vector<double> lefts(const elim::BayesTree& tree, const CliqueCosts& costs, double scale) {
+  std::vector<double> left(tree.cliques()), next(tree.cliques());
+  double roots = margin;
+  for (Index c = 0; c < tree.cliques(); ++c) {
+    double& place = tree.parent[c] < 0 ? roots : next[tree.parent[c]];
+    left[c] = next[c] = place;
+    place += scale * costs.below[c];
+  }
+  return left;
 }
 
 }  // namespace
@@ -83,16 +55,23 @@ void draw_branches(cairo_t* page, const elim::BayesTree& tree, const std::vector
 void draw_tree(cairo_t* page, const PageSize& size, const elim::Symbolic& symbolic) {
   const elim::BayesTree tree = elim::bayes_tree(symbolic);
   if (tree.cliques() == 0) return;
-  const Places place = places(layout(tree), size);
-  draw_branches(page, tree, place.at);
-  const auto largest =
-      static_cast<double>(*std::max_element(tree.total_dim.begin(), tree.total_dim.end()));
-  set_color(page, path_color, 0.8);
+  const CliqueCosts costs = costs_of(tree);
+  const std::vector<int> depth = depths(tree);
+  double total = 0;
+  for (Index c = 0; c < tree.cliques(); ++c) total += costs.own[c];
+  const double scale = (size.width - 2 * margin) / total;
+  const std::vector<double> left = lefts(tree, costs, scale);
+  const double row = std::min(
+      margin, (size.height - 2 * margin) / (1 + *std::max_element(depth.begin(), depth.end())));
+  const double largest = *std::max_element(costs.own.begin(), costs.own.end());
+  const double gap = std::min(0.5, row / 5);
   for (Index c = 0; c < tree.cliques(); ++c) {
-    const double share = static_cast<double>(tree.total_dim[c]) / largest;
-    cairo_arc(page, place.at[c].x, place.at[c].y, place.largest_radius * std::sqrt(share), 0,
-              2 * M_PI);
-    cairo_fill(page);  // one by one: Cairo takes long over a path of many circles
+    const double width = scale * costs.below[c];
+    if (width < narrowest) continue;
+    set_color(page, heat(std::sqrt(costs.own[c] / largest)));
+    cairo_rectangle(page, left[c], margin + row * depth[c],
+                    std::max(narrowest, width - std::min(gap, width / 4)), row - gap);
+    cairo_fill(page);
   }
 }
 

@@ -75,16 +75,16 @@ Sheet costliest_edges(const Study& study, const cmd::Method& method) {
 
 Map map(Study& study, const cmd::Method& method, const graph::Order& order) {
   Map result;
-  const std::array axes{0, 1};
   result.call = call(study.source, "sg-plot map --cost -m " + method.label + " --width " +
                                        cmd::text(page_size.width) + " --height " +
                                        cmd::text(page_size.height));
   try {
+    const plot::View view = plot::best_view(study.graph);
     const plot::Costs costs = plot::costs(study.variables, order, method.label);
     result.svg = plot::picture(
         plot::PictureFormat::svg, page_size.width, page_size.height,
-        [&](cairo_t* page) { plot::draw_cost_map(page, page_size, study.graph, axes, costs); });
-    const std::vector<plot::Point> at = plot::places(study.graph, axes, page_size);
+        [&](cairo_t* page) { plot::draw_cost_map(page, page_size, study.graph, view, costs); });
+    const std::vector<plot::Point> at = plot::places(study.graph, view, page_size);
     const auto& ascending = costs.ascending;
     for (std::size_t k = 0; k < std::min<std::size_t>(ascending.size(), 200); ++k) {
       const Index v = ascending[ascending.size() - 1 - k];

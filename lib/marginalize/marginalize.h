@@ -2,8 +2,8 @@
 //
 // The edges of what goes are linearized at the estimates; eliminating it (piece.h) leaves the exact Gaussian of its
 // Markov blanket, which is either kept as it is, as one linear factor, or given to ordinary edges on a sparse topology
-// (topology.h) with the informations nearest to it (recover.h). What is recovered counts as an edge when a neighbour
-// goes in its turn.
+// (topology.h, prices.h) with the informations nearest to it (recover.h). What is recovered counts as an edge when a
+// neighbour goes in its turn. It says what the estimates say, and owes the gradient, until all is recovered (errors.h).
 #pragma once
 
 #include <functional>
@@ -11,13 +11,16 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/graph/pattern.h"
 #include "lib/marginalize/topology.h"
 
 namespace sg::marginalize {
 
 // What is eliminated together before it is made sparse: every vertex alone, by ascending id; runs of poses without one
-// that stays between them, landmarks alone; all that edges connect.
+// that stays between them, landmarks alone; all that edges connect, as long as what they leave has no more than
+// most_scalars.
 enum class Clusters : std::uint8_t { online, batch, global };
+constexpr int most_scalars = 48;
 
 struct Rule {
   bool linear = false;     // leave linear factors: exact
@@ -29,12 +32,19 @@ struct Rule {
 struct Marginalization {
   std::vector<bool> vertex, edge;  // n, m: what goes
   std::string lines;               // what comes, each with its newline
-  Index factors = 0;               // of them edges
+  graph::Lists<> factors;          // the vertices of every edge among them
   double divergence = 0;           // of Kullback and Leibler, of all recoveries
 };
+// The pattern of what is left.
+graph::GraphPattern pattern_left(const Graph& graph, const Marginalization& result);
 
 // `removed` of every vertex; none is fixed. `progress` is told how many are gone. Throws an input Error at the line of
-// an edge whose vertex cannot be taken out, since no measurement of g2o's could tell of a neighbour.
+// an edge whose vertex cannot be taken out, since no measurement of g2o's could tell of a neighbour; before anything is
+// computed, but where that depends on what has been recovered.
+//
+// Topology ec makes two passes and more: a tree's graph has the order in which EC is priced, and then the graph that this
+// leaves; its price is that, a unit of EC, which a tree loses a unit of its own, times Sparsity::price, or the least that
+// an EC allows, found by bisection.
 Marginalization marginalize(const At& at, const std::vector<bool>& removed, const Rule& rule,
                             const std::function<void(Index)>& progress = {});
 

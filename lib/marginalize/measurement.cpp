@@ -105,14 +105,20 @@ std::vector<double> measured(const At& at, const Measurable& of, const Eigen::Ve
   return y;
 }
 
-Eigen::MatrixXd slope(const At& at, const Measurable& of) {
+std::vector<double> measured(const At& at, const Measurable& of) {
   const auto zero = [&](Index v) -> Eigen::VectorXd {
     return Eigen::VectorXd::Zero(v < 0 ? 0 : at.dim(v));
   };
+  return measured(at, of, zero(of.first), zero(of.second));
+}
+
+Eigen::MatrixXd slope(const At& at, const Measurable& of) {
+  return slope(at, of, measured(at, of));
+}
+
+Eigen::MatrixXd slope(const At& at, const Measurable& of, const std::vector<double>& numbers) {
   const int dim = factor::find_model(of.type)->dim;
-  const Eigen::MatrixXd block =
-      linearized(at, of, measured(at, of, zero(of.first), zero(of.second)),
-                 Eigen::MatrixXd::Identity(dim, dim));
+  const Eigen::MatrixXd block = linearized(at, of, numbers, Eigen::MatrixXd::Identity(dim, dim));
   return block.leftCols(block.cols() - 1);
 }
 

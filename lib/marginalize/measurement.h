@@ -28,8 +28,12 @@ struct Measurement {
 // What would be measured at the estimates after these vertices have moved by these steps.
 std::vector<double> measured(const At& at, const Measurable& of, const Eigen::VectorXd& first,
                              const Eigen::VectorXd& second);
-// The slope of its error in the steps of its vertices, of the measurement that has no error at the estimates.
+// The same where they have not moved.
+std::vector<double> measured(const At& at, const Measurable& of);
+// The slope of its error in the steps of its vertices, the first's before the second's, of the measurement that has no
+// error at the estimates; and of one of these numbers.
 Eigen::MatrixXd slope(const At& at, const Measurable& of);
+Eigen::MatrixXd slope(const At& at, const Measurable& of, const std::vector<double>& numbers);
 
 Piece piece_of(const At& at, const Measurement& measurement);
 

@@ -113,6 +113,14 @@ std::vector<int> starts(const At& at, std::span<const Index> vertices) {
   return result;
 }
 
+bool is_absolute(const At& at, Index e) {
+  const Graph& graph = *at.problem.graph;
+  const auto ends = graph.edge(e);
+  const auto is_pose = [&](Index v) { return graph.role(v) == graph::Role::pose; };
+  return std::ranges::all_of(ends, [&](Index v) { return v == ends[0]; }) ||
+         std::ranges::none_of(ends, is_pose) || graph.edge_tag(e) == graph::EdgeTag::linear;
+}
+
 Piece piece_of_edge(const At& at, Index e) {
   const Graph& graph = *at.problem.graph;
   const auto ends = graph.edge(e);
@@ -121,9 +129,7 @@ Piece piece_of_edge(const At& at, Index e) {
   std::ranges::sort(piece.vertices);
   piece.vertices.erase(std::unique(piece.vertices.begin(), piece.vertices.end()),
                        piece.vertices.end());
-  const auto is_pose = [&](Index v) { return graph.role(v) == graph::Role::pose; };
-  piece.absolute = piece.vertices.size() == 1 || std::ranges::none_of(ends, is_pose) ||
-                   graph.edge_tag(e) == graph::EdgeTag::linear;
+  piece.absolute = is_absolute(at, e);
 
   const int height = factor::dim_of(at.problem, e), width = total_dim(at, ends) + 1;
   MatrixXd block(height, width);

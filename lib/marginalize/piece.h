@@ -34,6 +34,9 @@ int total_dim(const At& at, std::span<const Index> vertices);
 // Where the step of each starts in the step of all, and the end.
 std::vector<int> starts(const At& at, std::span<const Index> vertices);
 
+// Whether an edge tells where the whole is.
+bool is_absolute(const At& at, Index e);
+
 // Of an edge with a model. Throws a computation Error where it has no derivative at the estimates.
 Piece piece_of_edge(const At& at, Index e);
 

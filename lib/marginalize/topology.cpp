@@ -17,51 +17,57 @@ using Eigen::LLT;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::array<std::string_view, 5> names{"dense", "tree", "subgraph", "l1", "seif"};
+constexpr std::array<std::string_view, 6> names{"dense", "tree", "subgraph", "l1", "seif", "ec"};
 
 // What is added to the information of a direction that nothing is known of, as a part of its diagonal.
 constexpr double next_to_nothing = 1e-9;
+
+// The number of a vertex in the blanket.
+std::ptrdiff_t place(const Blanket& blanket, Index v) {
+  return std::ranges::lower_bound(blanket.vertices, v) - blanket.vertices.begin();
+}
 
 bool is_pose(const At& at, Index v) {
   return at.problem.graph->role(v) == graph::Role::pose;
 }
 
-// A slope in the steps of a measurement's own vertices, in those of the blanket.
-MatrixXd spread(const At& at, const Measurable& of, const Blanket& blanket) {
+// A pair without its covariance.
+Pair pair_of(const At& at, const Measurable& of, const Blanket& blanket) {
   const MatrixXd own = slope(at, of);
-  MatrixXd all = MatrixXd::Zero(own.rows(), blanket.information.rows());
+  std::vector<int> columns;  // of own
+  Pair pair{of, {}, {}, {}};
   int column = 0;
   for (const Index v : {of.first, of.second}) {
     if (v < 0) continue;
-    const auto place = std::ranges::find(blanket.vertices, v) - blanket.vertices.begin();
-    if (blanket.start[place] >= 0)
-      all.middleCols(blanket.start[place], at.dim(v)) = own.middleCols(column, at.dim(v));
-    column += at.dim(v);
+    const int start = blanket.start[place(blanket, v)];
+    for (int i = 0; i < at.dim(v); ++i, ++column) {
+      if (start < 0) continue;
+      pair.scalars.push_back(start + i);
+      columns.push_back(column);
+    }
   }
-  return all;
+  pair.slope = own(Eigen::all, columns);
+  return pair;
 }
 
-// By how much a tree is wrong about a pair: the divergence of the pair's Gaussian from that which the tree has.
-double surprise(const Pair& pair, const MatrixXd& tree_covariance) {
-  const MatrixXd B = pair.slope * tree_covariance * pair.slope.transpose();
-  const MatrixXd ratio = LLT<MatrixXd>(B).solve(pair.covariance);
-  return (ratio.trace() - log_det(pair.covariance) + log_det(B) - static_cast<double>(B.rows())) /
-         2;
+MatrixXd covariance_of(const Pair& pair, const MatrixXd& covariance) {
+  return pair.slope * covariance(pair.scalars, pair.scalars) * pair.slope.transpose();
 }
 
-std::vector<Index> others(const std::vector<Pair>& pairs, const Tree& tree) {
-  std::vector<Index> result;
-  for (Index k = 0; k < std::ssize(pairs); ++k) {
-    if (pairs[k].of.second >= 0 && !std::ranges::binary_search(tree.pairs, k)) result.push_back(k);
+// Calls pair(u, v) for every two vertices that could be measured together, and pair(v, -1) for every one that could be
+// alone. Landmarks pair with each other only where there is no pose.
+void for_pairs(const At& at, std::span<const Index> vertices, bool absolute, const auto& pair) {
+  const bool poses = std::ranges::any_of(vertices, [&](Index v) { return is_pose(at, v); });
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (absolute) {
+      if (const auto of = prior(at, vertices[i])) pair(*of);
+    }
+    for (std::size_t j = i + 1; j < vertices.size(); ++j) {
+      const Index u = vertices[i], v = vertices[j];
+      if (poses && !is_pose(at, u) && !is_pose(at, v)) continue;
+      if (const auto of = between(at, u, v)) pair(*of);
+    }
   }
-  return result;
-}
-
-std::vector<MatrixXd> slopes_of(const std::vector<Pair>& pairs, const std::vector<Index>& which) {
-  std::vector<MatrixXd> slopes;
-  slopes.reserve(which.size());
-  for (const Index k : which) slopes.push_back(pairs[k].slope);
-  return slopes;
 }
 
 // The further pairs that a tree is most wrong about.
@@ -69,10 +75,7 @@ std::vector<Index> most_informative(const Blanket& blanket, const std::vector<Pa
                                     const Tree& tree, Index count) {
   std::vector<Index> further = others(pairs, tree);
   count = std::min<Index>(count, static_cast<Index>(further.size()));
-  MatrixXd Q = MatrixXd::Zero(blanket.covariance.rows(), blanket.covariance.cols());
-  for (const Index k : tree.pairs)
-    Q += pairs[k].slope.transpose() * LLT<MatrixXd>(pairs[k].covariance).solve(pairs[k].slope);
-  const MatrixXd covariance = LLT<MatrixXd>(Q).solve(MatrixXd::Identity(Q.rows(), Q.cols()));
+  const MatrixXd covariance = tree_covariance(blanket, pairs, tree);
   std::vector<double> of(pairs.size(), 0);
   for (const Index k : further) of[k] = surprise(pairs[k], covariance);
   std::ranges::stable_sort(further, std::greater(), [&](Index k) { return of[k]; });
@@ -80,20 +83,40 @@ std::vector<Index> most_informative(const Blanket& blanket, const std::vector<Pa
   return further;
 }
 
+// How many pairs come beside a tree's where nobody says it: half as many. With more, vertices that go in their turn would
+// have ever more neighbours.
+std::size_t half(const Tree& tree) {
+  return (tree.pairs.size() + 1) / 2;
+}
+
+// The greatest of these.
+std::vector<Index> first_few(std::vector<Index> further, const Tree& tree,
+                             const std::vector<double>& of) {
+  std::ranges::stable_sort(further, std::greater(), [&](Index k) { return of[k]; });
+  further.resize(std::min(further.size(), half(tree)));
+  return further;
+}
+
 // Huang, Kaess, Leonard, Consistent sparsification for graph optimization (2013): the pairs that a penalty on all of
-// them leaves, here on the trace of their information, and never with more information than there was.
+// them leaves, here on the trace of their information, a multiple each of what a tree's has, and never with more
+// information than there was. Those that the tree is hardly wrong about are left out before.
 std::vector<Index> penalized(const Blanket& blanket, const std::vector<Pair>& pairs,
                              const Tree& tree, double penalty) {
-  std::vector<Index> all(pairs.size());
-  std::iota(all.begin(), all.end(), 0);
-  const Recovery recovered = recover(slopes_of(pairs, all), blanket.covariance,
-                                     {.conservative = true, .penalty = penalty});
-  std::vector<Index> result;
-  for (const Index k : others(pairs, tree)) {
-    const double share = (recovered.information[k] * pairs[k].covariance).trace();
-    if (share > 1e-3 * static_cast<double>(pairs[k].covariance.rows())) result.push_back(k);
+  std::vector<Index> offered =
+      most_informative(blanket, pairs, tree, 2 * static_cast<Index>(tree.pairs.size()));
+  offered.insert(offered.begin(), tree.pairs.begin(), tree.pairs.end());
+  std::vector<MatrixXd> slopes;
+  for (const Index k : offered) slopes.push_back(spread(blanket, pairs[k]));
+  const Recovery recovered = recover(slopes, blanket.covariance,
+                                     {.conservative = true, .penalty = penalty, .multiples = true});
+  std::vector<double> share(pairs.size(), 0);
+  for (std::size_t i = 0; i < offered.size(); ++i) {
+    const MatrixXd& A = pairs[offered[i]].covariance;
+    share[offered[i]] = (recovered.information[i] * A).trace() / static_cast<double>(A.rows());
   }
-  return result;
+  std::vector<Index> result = others(pairs, tree);
+  std::erase_if(result, [&](Index k) { return share[k] < 1e-3; });
+  return first_few(std::move(result), tree, share);
 }
 
 // What is left of a link of the information matrix beside what its two ends know: its largest correlation.
@@ -120,11 +143,11 @@ double link(const At& at, const Piece& piece, Index u, Index v) {
 // information filters (2004): weak links of the information matrix go.
 std::vector<Index> strong_links(const At& at, const Piece& piece, const std::vector<Pair>& pairs,
                                 const Tree& tree, double threshold) {
+  std::vector<double> strength(pairs.size(), 0);
   std::vector<Index> result = others(pairs, tree);
-  std::erase_if(result, [&](Index k) {
-    return link(at, piece, pairs[k].of.first, pairs[k].of.second) < threshold;
-  });
-  return result;
+  for (const Index k : result) strength[k] = link(at, piece, pairs[k].of.first, pairs[k].of.second);
+  std::erase_if(result, [&](Index k) { return strength[k] < threshold; });
+  return first_few(std::move(result), tree, strength);
 }
 
 }  // namespace
@@ -148,20 +171,18 @@ Blanket blanket(const At& at, const Piece& piece) {
   const auto held = piece.absolute                 ? std::ssize(piece.vertices)
                     : pose == piece.vertices.end() ? 0
                                                    : pose - piece.vertices.begin();
-  std::vector<int>& rest = result.scalars;
+  std::vector<int> rest;  // scalars of those that are not held
   for (Index k = 0; k < std::ssize(piece.vertices); ++k) {
     result.start.push_back(k == held ? -1 : static_cast<int>(rest.size()));
     for (int i = start[k]; k != held && i < start[k + 1]; ++i) rest.push_back(i);
   }
   result.information = piece.information(rest, rest);
-  result.gradient = piece.gradient(rest);
   VectorXd scale = result.information.diagonal();
   const double most = scale.size() > 0 ? scale.maxCoeff() : 0;
   for (double& s : scale) s = 1 / std::sqrt(std::max(s, 1e-12 * most));
   const MatrixXd scaled = scale.asDiagonal() * result.information * scale.asDiagonal();
   const LLT<MatrixXd> cholesky(scaled);
-  result.regular = cholesky.info() == Eigen::Success && cholesky.rcond() > next_to_nothing;
-  if (!result.regular)
+  if (cholesky.info() != Eigen::Success || !(cholesky.rcond() > next_to_nothing))
     result.information.diagonal() += next_to_nothing * scale.cwiseAbs2().cwiseInverse();
   const auto m = result.information.rows();
   const MatrixXd again = scale.asDiagonal() * result.information * scale.asDiagonal();
@@ -173,29 +194,62 @@ Blanket blanket(const At& at, const Piece& piece) {
 
 std::vector<Pair> candidate_pairs(const At& at, const Piece& piece, const Blanket& blanket) {
   std::vector<Pair> pairs;
-  const auto add = [&](const std::optional<Measurable>& of) {
-    if (!of) return;
-    const MatrixXd J = spread(at, *of, blanket);
-    pairs.push_back({*of, J, J * blanket.covariance * J.transpose()});
-  };
-  const bool poses = std::ranges::any_of(piece.vertices, [&](Index v) { return is_pose(at, v); });
-  for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
-    if (piece.absolute) add(prior(at, piece.vertices[i]));
-    for (std::size_t j = i + 1; j < piece.vertices.size(); ++j) {
-      const Index u = piece.vertices[i], v = piece.vertices[j];
-      if (poses && !is_pose(at, u) && !is_pose(at, v)) continue;
-      add(between(at, u, v));
-    }
-  }
+  for_pairs(at, piece.vertices, piece.absolute, [&](const Measurable& of) {
+    pairs.push_back(pair_of(at, of, blanket));
+    pairs.back().covariance = covariance_of(pairs.back(), blanket.covariance);
+  });
   return pairs;
 }
 
+MatrixXd spread(const Blanket& blanket, const Pair& pair) {
+  MatrixXd all = MatrixXd::Zero(pair.slope.rows(), blanket.information.rows());
+  all(Eigen::all, pair.scalars) = pair.slope;
+  return all;
+}
+
+double surprise(const Pair& pair, const MatrixXd& covariance) {
+  const MatrixXd B = covariance_of(pair, covariance);
+  const MatrixXd ratio = LLT<MatrixXd>(B).solve(pair.covariance);
+  return (ratio.trace() - log_det(pair.covariance) + log_det(B) - static_cast<double>(B.rows())) /
+         2;
+}
+
+std::vector<Index> others(const std::vector<Pair>& pairs, const Tree& tree) {
+  std::vector<Index> result;
+  for (Index k = 0; k < std::ssize(pairs); ++k) {
+    if (pairs[k].of.second >= 0 && !std::ranges::binary_search(tree.pairs, k)) result.push_back(k);
+  }
+  return result;
+}
+
+MatrixXd tree_covariance(const Blanket& blanket, const std::vector<Pair>& pairs, const Tree& tree) {
+  const auto m = blanket.covariance.rows();
+  MatrixXd Q = MatrixXd::Zero(m, m);
+  for (const Index k : tree.pairs)
+    Q(pairs[k].scalars, pairs[k].scalars) +=
+        pairs[k].slope.transpose() * LLT<MatrixXd>(pairs[k].covariance).solve(pairs[k].slope);
+  return LLT<MatrixXd>(Q).solve(MatrixXd::Identity(m, m));
+}
+
+Index out_of_reach(const At& at, std::span<const Index> vertices, bool absolute) {
+  const auto n = static_cast<Index>(vertices.size());
+  const auto number = [&](Index v) {
+    return v < 0 ? n : static_cast<Index>(std::ranges::lower_bound(vertices, v) - vertices.begin());
+  };
+  graph::DisjointSets parts(n + 1);
+  for_pairs(at, vertices, absolute,
+            [&](const Measurable& of) { join(parts, number(of.first), number(of.second)); });
+  for (Index k = n - 1; k >= 0; --k) {
+    if (find(parts, k) != find(parts, absolute ? n : 0)) return vertices[k];
+  }
+  return -1;
+}
+
 Tree spanning_tree(const At& at, const Blanket& blanket, const std::vector<Pair>& pairs,
-                   bool absolute) {
+                   bool absolute, const std::function<double(const Pair&)>& dearer) {
   const auto number = [&](Index v) {
     return v < 0 ? static_cast<Index>(blanket.vertices.size())
-                 : static_cast<Index>(std::ranges::find(blanket.vertices, v) -
-                                      blanket.vertices.begin());
+                 : static_cast<Index>(place(blanket, v));
   };
   const bool poses = std::ranges::any_of(blanket.vertices, [&](Index v) { return is_pose(at, v); });
   const auto is_leaf = [&](Index v) { return poses && v >= 0 && !is_pose(at, v); };
@@ -203,7 +257,8 @@ Tree spanning_tree(const At& at, const Blanket& blanket, const std::vector<Pair>
   std::iota(order.begin(), order.end(), 0);
   std::vector<double> cost;
   cost.reserve(pairs.size());
-  for (const Pair& pair : pairs) cost.push_back(log_det(pair.covariance));
+  for (const Pair& pair : pairs)
+    cost.push_back(log_det(pair.covariance) / 2 + (dearer ? dearer(pair) : 0));
   std::ranges::stable_sort(order, {}, [&](Index k) { return cost[k]; });
 
   Tree tree;
@@ -233,15 +288,16 @@ std::vector<Index> chosen_pairs(const At& at, const Piece& piece, const Blanket&
                                 const std::vector<Pair>& pairs, const Tree& tree,
                                 const Sparsity& sparsity) {
   std::vector<Index> further;
-  const auto half = static_cast<Index>(tree.pairs.size() + 1) / 2;
+  const auto usual = static_cast<Index>(half(tree));
   switch (sparsity.topology) {
     case Topology::tree:
+    case Topology::ec:
       break;
     case Topology::dense:
       further = others(pairs, tree);
       break;
     case Topology::subgraph:
-      further = most_informative(blanket, pairs, tree, sparsity.extra < 0 ? half : sparsity.extra);
+      further = most_informative(blanket, pairs, tree, sparsity.extra < 0 ? usual : sparsity.extra);
       break;
     case Topology::l1:
       further = penalized(blanket, pairs, tree, sparsity.penalty);

@@ -1,6 +1,7 @@
 // Which pairs of a Markov blanket measurements are recovered between.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace sg::marginalize {
 
-enum class Topology : std::uint8_t { dense, tree, subgraph, l1, seif };
+enum class Topology : std::uint8_t { dense, tree, subgraph, l1, seif, ec };
 std::optional<Topology> topology(std::string_view name);
 std::vector<std::string> topology_names();
 
@@ -18,6 +19,8 @@ struct Sparsity {
   Index extra = -1;        // subgraph: pairs beyond the tree; -1: one for every two of the tree
   double penalty = 1;      // l1: of a pair, in units of what a tree's measurement costs
   double threshold = 0.1;  // seif: of a link's correlation
+  double price = 1;        // ec: of EC, as a multiple of what a tree loses a unit of its own
+  std::optional<double> ec = {};  // ec: the price is the least that leaves no more EC than this
 };
 
 // The Gaussian of a blanket in its steps, all but those of the vertex that is held (a piece that only moves with the
@@ -25,10 +28,7 @@ struct Sparsity {
 struct Blanket {
   std::vector<Index> vertices;
   std::vector<int> start;       // where the step of each starts, -1 of the one that is held
-  std::vector<int> scalars;     // of the piece's, those that are not
   Eigen::MatrixXd information;  // regular: where nothing is known, next to nothing is
-  Eigen::VectorXd gradient;
-  bool regular;  // whether it was so before
   Eigen::MatrixXd covariance;
 };
 Blanket blanket(const At& at, const Piece& piece);
@@ -36,9 +36,12 @@ Blanket blanket(const At& at, const Piece& piece);
 // A pair that a measurement could be recovered between.
 struct Pair {
   Measurable of;
-  Eigen::MatrixXd slope;       // in the steps of the blanket
+  std::vector<int> scalars;    // of the blanket's steps, those of its vertices
+  Eigen::MatrixXd slope;       // in them
   Eigen::MatrixXd covariance;  // slope S slope'
 };
+// Its slope in all steps of the blanket.
+Eigen::MatrixXd spread(const Blanket& blanket, const Pair& pair);
 // Every pair with a measurement of full rank, and where the piece is absolute a prior of every vertex. Landmarks pair
 // with each other only where there is no pose.
 std::vector<Pair> candidate_pairs(const At& at, const Piece& piece, const Blanket& blanket);
@@ -52,10 +55,22 @@ struct Tree {
   std::vector<Index> pairs;  // ascending
   Index missing = -1;
 };
+// dearer: what a pair costs beside its divergence, in nats; may be empty.
 Tree spanning_tree(const At& at, const Blanket& blanket, const std::vector<Pair>& pairs,
-                   bool absolute);
+                   bool absolute, const std::function<double(const Pair&)>& dearer = {});
+// The vertex that no tree of such measurements would reach among these, whatever is known of them; -1 where there is none.
+Index out_of_reach(const At& at, std::span<const Index> vertices, bool absolute);
 
-// The pairs of a topology, ascending; the tree among them.
+// The pairs between two vertices that are not the tree's.
+std::vector<Index> others(const std::vector<Pair>& pairs, const Tree& tree);
+// The covariance of what is recovered along the tree.
+Eigen::MatrixXd tree_covariance(const Blanket& blanket, const std::vector<Pair>& pairs,
+                                const Tree& tree);
+// By how much a covariance of the blanket is wrong about a pair: the divergence of the pair's Gaussian from that which
+// it has there.
+double surprise(const Pair& pair, const Eigen::MatrixXd& covariance);
+
+// The pairs of a topology but ec (prices.h), ascending; the tree among them.
 std::vector<Index> chosen_pairs(const At& at, const Piece& piece, const Blanket& blanket,
                                 const std::vector<Pair>& pairs, const Tree& tree,
                                 const Sparsity& sparsity);

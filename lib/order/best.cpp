@@ -4,24 +4,28 @@
 // number that run in parallel, of two kinds:
 //
 //   - restarts: a pass of greedy_fill (wmf.h) with random ties and jittered scores, given up as
-//     soon as it costs more than the best;
+//     soon as it costs more than the best; on a wide graph, also dissections (dissect.h) by other
+//     separators;
 //   - local improvement. In the elimination tree of the best order a root r is drawn, and a
 //     connected region R at the top of its subtree. No front outside R depends on the order inside
 //     R, as long as what hangs below R goes before it and what lies above after: what is eliminated
-//     by then is the same. So R is a problem of its own (region.h). Greedy passes reorder it, and
-//     what it gains there the whole order gains. Of one round, improvements whose subtrees are
-//     apart are all taken.
+//     by then is the same. So R is a problem of its own (region.h). Greedy passes reorder it, or on
+//     a wide graph dissections, and what it gains there the whole order gains. Of one round,
+//     improvements whose subtrees are apart are all taken.
 //
 // A try depends on its number, the seed, and the best order at the start of its round, not on
-// threads or time: a budget in tries gives the same order everywhere.
+// threads or time: a budget in tries gives the same order everywhere. With a budget in seconds,
+// methods and tries that would outlast it by what amd took are left out.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
+#include "lib/order/dissect.h"
 #include "lib/order/methods.h"
 #include "lib/order/region.h"
 #include "lib/order/supervariables.h"
@@ -32,6 +36,7 @@ namespace {
 
 constexpr int tries_a_round = 16;
 constexpr int restarts_at_first = 16;
+constexpr double pass_effort = 10;  // of ordering a graph anew, in the time of amd
 
 // Pseudo-random numbers of one try.
 struct Draw {
@@ -52,10 +57,24 @@ struct Search {
   const graph::Pattern& pattern;
   const OrderOptions& options;
   graph::Adjacency graph;
-  std::vector<int> stage;  // 1 of the variables of `last`
-  Elimination best;
-  std::vector<double> cost;  // running sum of the costs of best's variables
+  std::vector<int> stage = {};  // 1 of the variables of `last`
+  Elimination best = {};
+  std::vector<double> cost = {};  // running sum of the costs of best's variables
+  Clock clock = {};
+  double amd_seconds = 0;  // with a score
+  bool wide = false;       // dissections are worth a try
 };
+
+bool stopped(const Search& search) {
+  return search.options.stop && search.options.stop();
+}
+
+// Whether the budget has time for so many times what amd took.
+bool time_for(const Search& search, double effort) {
+  const double seconds = search.options.budget.seconds;
+  if (stopped(search)) return false;
+  return seconds <= 0 || search.clock.seconds() + effort * search.amd_seconds < seconds;
+}
 
 struct Try {
   graph::Order order;          // of a restart that is better; empty otherwise
@@ -85,17 +104,28 @@ GreedyOptions drawn_options(Draw& draw) {
   return options;
 }
 
+Try better_order(const Search& search, graph::Order order, elim::Wide ec) {
+  Try found;
+  if (ec >= search.best.ec) return found;
+  found.order = std::move(order);
+  found.gain = search.best.ec - ec;
+  return found;
+}
+
+Try other_dissection(const Search& search, Draw draw) {
+  graph::Order order = dissect(search.graph, search.pattern.dim, draw.below(1 << 30));
+  const elim::Wide ec = elim::elimination_complexity(search.pattern, order);
+  return better_order(search, std::move(order), ec);
+}
+
 Try restart(const Search& search, Draw draw) {
+  if (!time_for(search, pass_effort)) return {};
+  if (search.wide && draw.below(2) == 0) return other_dissection(search, draw);
   GreedyOptions options = drawn_options(draw);
   options.stage = search.stage;
   options.limit = search.best.ec;
   GreedyResult result = greedy_fill(search.pattern, search.graph, options);
-  Try found;
-  if (result.ec < search.best.ec) {
-    found.order = std::move(result.order);
-    found.gain = search.best.ec - result.ec;
-  }
-  return found;
+  return better_order(search, std::move(result.order), result.ec);
 }
 
 // A position drawn in proportion to its cost, and from there up to a subtree of this size.
@@ -118,14 +148,27 @@ std::vector<int> region_stages(const Search& search, const Region& region) {
   return stage;
 }
 
+// An order of a region and what is around it.
+graph::Order drawn_order(const Search& search, const Region& part, Draw& draw) {
+  const graph::Adjacency graph = graph::adjacency(part.pattern);
+  if (search.wide && draw.below(2) == 0) {
+    const auto inner = static_cast<Index>(part.inside.size());
+    graph::Order order =
+        nested_dissection(graph, part.pattern.dim, inner, draw.below(1 << 30)).order;
+    for (Index v = inner; v < part.pattern.variables(); ++v) order.push_back(v);
+    return order;
+  }
+  GreedyOptions options = drawn_options(draw);
+  options.stage = region_stages(search, part);
+  return greedy_fill(part.pattern, graph, options).order;
+}
+
 Try local(const Search& search, Draw draw) {
   const double largest = std::log2(std::max<double>(8, search.pattern.variables()));
   const auto size = static_cast<Index>(std::exp2(3 + draw.uniform() * (largest - 3)));
+  if (!time_for(search, pass_effort * size / search.pattern.variables())) return {};
   const Region part = region(search.best, drawn_root(search, size, draw), size);
-  GreedyOptions options = drawn_options(draw);
-  options.stage = region_stages(search, part);
-  const graph::Order order =
-      greedy_fill(part.pattern, graph::adjacency(part.pattern), options).order;
+  const graph::Order order = drawn_order(search, part, draw);
   const elim::Wide ec = region_ec(part, order);
   Try found;
   if (ec < part.ec) {
@@ -158,37 +201,51 @@ graph::Order with_improvements(const Search& search, std::vector<Try>& tries) {
   return order;
 }
 
-bool stopped(const Search& search) {
-  return search.options.stop && search.options.stop();
-}
-
-void report(const Search& search, std::string_view how, int tries, const Clock& clock) {
+void report(const Search& search, std::string_view how, int tries) {
   if (!search.options.report) return;
-  search.options.report({how, tries, clock.seconds(), search.best.ec});
+  search.options.report({how, tries, search.clock.seconds(), search.best.ec});
 }
 
-// Every other method; of equals the one that stands first in the table. Only the first, which takes no time, is there
-// in any case.
-void take_best_method(Search& search, const Clock& clock) {
+// CPU time of a method in that of amd, about, on a large graph.
+double effort(const Ordering& method) {
+  if (method.compute == sloan) return 25;
+  const std::array around_ten{wmf, metis, scotch, mmd};
+  if (std::ranges::find(around_ten, method.compute) != around_ten.end()) return 10;
+  return 2;
+}
+
+// Every other method that there is time for; of equals the one that stands first in the table. Only the first, which
+// takes no time, is there in any case. amd is the measure of the others.
+void take_best_method(Search& search) {
   std::vector<const Ordering*> methods;
   for (const Ordering& method : orderings()) {
     if (method.compute != best) methods.push_back(&method);
   }
   std::vector<Elimination> found(methods.size());
-  tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t i) {
-    if (i > 0 && stopped(search)) return;
+  const auto find = [&](std::size_t i) {
+    const Ordering& method = *methods[i];
+    if (!found[i].order.empty() || (i > 0 && !time_for(search, effort(method)))) return;
     found[i] =
-        elimination(search.pattern, elimination_order(*methods[i], search.pattern, search.options));
-  });
+        elimination(search.pattern, elimination_order(method, search.pattern, search.options));
+  };
+  if (search.options.budget.seconds > 0) {
+    const auto measure = std::ranges::find_if(
+        methods, [](const Ordering* method) { return method->compute == amd; });
+    const double start = search.clock.seconds();
+    find(static_cast<std::size_t>(measure - methods.begin()));
+    search.amd_seconds = search.clock.seconds() - start;
+  }
+  tbb::parallel_for(std::size_t{0}, methods.size(), find);
   for (std::size_t i = 0; i < methods.size(); ++i) {
     if (i > 0 && (found[i].order.empty() || found[i].ec >= search.best.ec)) continue;
     take(search, std::move(found[i]));
-    report(search, methods[i]->name, 0, clock);
+    report(search, methods[i]->name, 0);
   }
 }
 
 // Whether the round improved the best.
-void take_round(Search& search, std::vector<Try>& tries, int done, const Clock& clock) {
+void take_round(Search& search, std::vector<Try>& tries, int done) {
+  if (std::ranges::none_of(tries, [](const Try& found) { return found.gain > 0; })) return;
   const elim::Wide before = search.best.ec;
   const auto restarted =
       std::max_element(tries.begin(), tries.end(), [](const Try& a, const Try& b) {
@@ -206,29 +263,27 @@ void take_round(Search& search, std::vector<Try>& tries, int done, const Clock& 
   }
   if (improved.ec >= before) return;
   take(search, std::move(improved));
-  report(search, how, done, clock);
+  report(search, how, done);
 }
 
 }  // namespace
 
 graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
-  const Clock clock;
-  Search search{pattern, options, graph::adjacency(pattern), {}, {}, {}};
+  Search search{pattern, options, graph::adjacency(pattern)};
   search.stage.assign(pattern.variables(), 0);
   for (Index j : options.last) search.stage.at(j) = 1;
-  take_best_method(search, clock);
+  take_best_method(search);
   if (pattern.variables() == 0) return {};
+  search.wide = options.last.empty() && is_wide(search.graph, search.best.ec);
   const Budget& budget = options.budget;
-  const auto time_left = [&] {
-    return !stopped(search) && (budget.seconds <= 0 || clock.seconds() < budget.seconds);
-  };
+  const auto time_left = [&] { return time_for(search, 0); };
   const auto tries_left = [&](int done) { return budget.seconds > 0 || done < budget.tries; };
   for (int done = 0; tries_left(done) && time_left(); done += tries_a_round) {
     std::vector<Try> tries(tries_a_round);
     tbb::parallel_for(0, tries_a_round, [&](int i) {
       if (tries_left(done + i) && time_left()) tries[i] = one_try(search, done + i);
     });
-    take_round(search, tries, done + tries_a_round, clock);
+    take_round(search, tries, done + tries_a_round);
   }
   return std::move(search.best.order);
 }

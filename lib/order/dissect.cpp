@@ -191,14 +191,14 @@ Core core(FillGraph& g) {
 
 }  // namespace
 
-Dissected nested_dissection(const graph::Adjacency& graph, const std::vector<int>& dim,
+Dissected nested_dissection(const graph::Adjacency& graph, const std::vector<int>& dim, Index inner,
                             std::uint64_t seed) {
   Graph g{graph, dim, seed, std::vector<Index>(dim.size(), 0)};
-  std::vector<Index> all(dim.size());
+  std::vector<Index> all(inner);
   std::iota(all.begin(), all.end(), 0);
   const Piece whole = piece(graph, dim, std::move(all), g.number);
   graph::Lists<> around;
-  return dissected(g, parts(whole, Separation(dim.size(), 0)), around);
+  return dissected(g, parts(whole, Separation(inner, 0)), around);
 }
 
 graph::Order dissect(const graph::Adjacency& graph, const std::vector<int>& dim,
@@ -207,7 +207,7 @@ graph::Order dissect(const graph::Adjacency& graph, const std::vector<int>& dim,
   FillGraph g = fill_graph(graph, dim, {}, GreedyOptions{}.exact_work * size);
   if (g.exact) reduce(g);
   const Core rest = core(g);
-  const Dissected found = nested_dissection(rest.graph, rest.weight, seed);
+  const Dissected found = nested_dissection(rest.graph, rest.weight, rest.graph.size(), seed);
   for (const Index k : found.order) eliminate_members(g.variables, rest.variables[k], 0);
   return std::move(g.variables.order);
 }

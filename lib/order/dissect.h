@@ -16,14 +16,15 @@
 
 namespace sg::order {
 
+// Of the first `inner` variables. The others are around them and eliminated later; how they are joined does not matter.
 struct Dissected {
   graph::Order order;
   elim::Wide ec;  // of it, exactly, as the pieces say
 };
-Dissected nested_dissection(const graph::Adjacency& graph, const std::vector<int>& dim,
+Dissected nested_dissection(const graph::Adjacency& graph, const std::vector<int>& dim, Index inner,
                             std::uint64_t seed);
 
-// The same of what is left of a graph once all has gone that any good order may begin with: what is simplicial or has at
+// The same of all that is left of a graph once all has gone that any good order may begin with: what is simplicial or has at
 // most three neighbours. Indistinguishable variables go together.
 graph::Order dissect(const graph::Adjacency& graph, const std::vector<int>& dim,
                      std::uint64_t seed);

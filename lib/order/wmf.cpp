@@ -252,6 +252,10 @@ constexpr std::int64_t most_work = 20;
 
 }  // namespace
 
+bool is_wide(const graph::Adjacency& graph, elim::Wide ec) {
+  return ec > static_cast<elim::Wide>(narrow * entries(graph));
+}
+
 graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
   const graph::Adjacency graph = graph::adjacency(pattern);
   GreedyOptions greedy;
@@ -263,7 +267,7 @@ graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
   const std::int64_t size = entries(graph);
   if (size <= large) {
     GreedyResult best = minimum_fill(pattern, graph, greedy);
-    if (best.ec > static_cast<elim::Wide>(narrow * size)) {
+    if (is_wide(graph, best.ec)) {
       keep_better(best, by_dissection(pattern, graph, options.seed));
     }
     return std::move(best.order);

@@ -88,6 +88,9 @@ GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& 
 GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
                                  Index inner);
 
+// Whether dissection may do better than a greedy order of this EC: whether it is high for so many edges.
+bool is_wide(const graph::Adjacency& graph, elim::Wide ec);
+
 struct WmfOptions {
   std::vector<Index> last;  // to be eliminated after all others
   std::uint64_t seed = 0;   // as in GreedyOptions

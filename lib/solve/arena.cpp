@@ -21,10 +21,9 @@ Arena::Arena(std::size_t size) : size_(size) {
   numbers_.reset(static_cast<double*>(std::aligned_alloc(page, std::max(rounded, page))));
   if (!numbers_) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-  // Half of the time of planning an elimination is the system handing out small pages.
+  // Small pages take the system longer to hand out than an elimination takes to fill them.
   if (page == huge_page) madvise(numbers_.get(), rounded, MADV_HUGEPAGE);
 #endif
-  std::fill_n(numbers_.get(), size, 0.0);
 }
 
 }  // namespace sg::solve

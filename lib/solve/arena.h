@@ -13,7 +13,8 @@ namespace sg::solve {
 class Arena {
  public:
   Arena() = default;
-  explicit Arena(std::size_t size);  // all zero; throws std::bad_alloc
+  explicit Arena(
+      std::size_t size);  // not set, nor had from the system before use; throws std::bad_alloc
 
   double* data() { return numbers_.get(); }
   const double* data() const { return numbers_.get(); }

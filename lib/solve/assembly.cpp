@@ -22,7 +22,8 @@ bool append_runs(std::span<const Index> variables, std::span<const int> dim,
   const std::size_t first = runs.size();
   int from = 0;
   const auto append = [&](int to, int length) {
-    const bool goes_on = runs.size() > first && runs.back().to + runs.back().length == to;
+    const bool goes_on = runs.size() > first && runs.back().to + runs.back().length == to &&
+                         runs.back().from + runs.back().length == from;
     if (goes_on) {
       runs.back().length += length;
     } else {
@@ -31,14 +32,28 @@ bool append_runs(std::span<const Index> variables, std::span<const int> dim,
     from += length;
   };
   for (Index j : variables) {
-    assert(0 <= row_at[j] && row_at[j] + dim[j] <= last_row);
-    append(row_at[j], dim[j]);
+    assert(row_at[j] + dim[j] <= last_row);
+    if (row_at[j] >= 0) {
+      append(row_at[j], dim[j]);
+    } else {
+      from += dim[j];
+    }
   }
   append(last_row, 1);
   const std::span appended = std::span(runs).subspan(first);
   if (std::ranges::is_sorted(appended, {}, &Run::to)) return true;
   std::ranges::sort(appended, {}, &Run::to);
   return false;
+}
+
+void add_child(const Kernels& kernel, const Front& child, std::span<const Run> runs,
+               const Front& front) {
+  const int count = static_cast<int>(runs.size());
+  if (child.u) {
+    kernel.add(front, child.u, child.ld_u(), runs.data(), count);
+  } else {
+    kernel.subtract_square(front, child.l + child.f, child.ld_l(), child.f, runs.data(), count);
+  }
 }
 
 }  // namespace sg::solve

@@ -11,17 +11,25 @@
 #include <numeric>
 
 #include "lib/solve/assembly.h"
+#include "lib/solve/factorize.h"
 #include "lib/solve/pivots.h"
 
 namespace sg::solve {
 namespace {
 
+// Which cliques form an update.
+void plan_leaves(Elimination& e) {
+  e.u_at.assign(e.tree.cliques(), 0);
+  for (Index c = 0; c < e.tree.cliques(); ++c) {
+    if (e.children[c].empty() && stays_factor(e.tree.frontal_dim[c], e.tree.separator_dim[c]))
+      e.u_at[c] = -1;
+  }
+}
+
 // Where rows and children go in their clique's front.
 void plan_runs(const graph::Pattern& pattern, Elimination& e) {
   const CliqueTree& tree = e.tree;
-  e.rows = graph::grouped(tree.row_clique, tree.cliques());
-  e.children = graph::grouped(tree.parent, tree.cliques());
-  std::vector<int> row_at(pattern.variables());
+  std::vector<int> row_at(pattern.variables(), -1);
   for (Index c = 0; c < tree.cliques(); ++c) {
     const int last_row = place_variables(tree.frontals[c], tree.separators[c], pattern.dim, row_at);
     for (Index r : e.rows[c]) {
@@ -31,7 +39,15 @@ void plan_runs(const graph::Pattern& pattern, Elimination& e) {
     for (Index child : e.children[c]) {
       append_runs(tree.separators[child], pattern.dim, row_at, last_row, e.child_runs.items);
       e.child_runs.close();
+      if (e.u_at[child] >= 0) continue;
+      for (Index j : tree.frontals[child]) row_at[j] = -1;
+      for (Index r : e.rows[child]) {
+        e.rest.items.push_back(r);
+        append_runs(pattern.rows[r], pattern.dim, row_at, last_row, e.rest_runs.items);
+        e.rest_runs.close();
+      }
     }
+    e.rest.close();
   }
 }
 
@@ -99,22 +115,23 @@ Offset plan_updates(Elimination& e, const Elimination::Task& task, const std::ve
   Offset peak[2] = {0, 0};
   for (Index c = task.first; c <= task.last; ++c) {
     const int side = depth[c] % 2;
-    e.u_at[c] = top[side];
-    top[side] += e.front(c).size_u();
+    if (e.u_at[c] >= 0) e.u_at[c] = top[side];
+    if (e.u_at[c] >= 0) top[side] += e.front(c).size_u();
     peak[side] = std::max(peak[side], top[side]);
     for (Index child : e.children[c]) {
-      if (child >= task.first) top[1 - side] = std::min(top[1 - side], e.u_at[child]);
+      if (child >= task.first && e.u_at[child] >= 0)
+        top[1 - side] = std::min(top[1 - side], e.u_at[child]);
     }
   }
-  for (Index c = task.first; c <= task.last; ++c)
-    e.u_at[c] += base + (depth[c] % 2 == 0 ? 0 : peak[0]);
+  for (Index c = task.first; c <= task.last; ++c) {
+    if (e.u_at[c] >= 0) e.u_at[c] += base + (depth[c] % 2 == 0 ? 0 : peak[0]);
+  }
   return base + peak[0] + peak[1];
 }
 
 void plan_storage(const factor::LinearSystem& system, Elimination& e) {
   const Index cliques = e.tree.cliques();
   e.l_at.resize(cliques);
-  e.u_at.resize(cliques);
   Offset l = 0;
   int rows = 0;
   std::vector<int> depth(cliques, 0);
@@ -126,13 +143,14 @@ void plan_storage(const factor::LinearSystem& system, Elimination& e) {
     e.l_at[c] = l;
     l += front.size_l();
     rows = std::max(rows, front.ld_l());
+    e.scratch_size = std::max(e.scratch_size, factorization_work(kernels(), front.f, front.n));
   }
   Offset u = 0;
   for (const Elimination::Task& task : e.tasks) u = plan_updates(e, task, depth, u);
   e.conditionals = Arena(l + lane);
   e.updates = Arena(u + lane);
 
-  e.scratch_size = rows + lane;
+  e.scratch_size = std::max<std::size_t>(e.scratch_size, rows + lane);
   for (Index r = 0; r < system.pattern->rows.size(); ++r) {
     const std::size_t height = system.height[r];
     const std::size_t width =
@@ -140,7 +158,7 @@ void plan_storage(const factor::LinearSystem& system, Elimination& e) {
     e.scratch_size = std::max(e.scratch_size, width * width + lane + height * (width + lane));
   }
   e.scratch_size = (e.scratch_size + lane - 1) / lane * lane;
-  e.scratch = Arena(e.scratch_size * std::max<std::size_t>(e.tasks.size(), 1));
+  e.scratch = Arena(e.scratch_size * std::max(e.threads, 1));
 }
 
 void damp(const Elimination& e, Index c, std::span<const double> damping, const Front& front) {
@@ -150,27 +168,29 @@ void damp(const Elimination& e, Index c, std::span<const double> damping, const 
   }
 }
 
+void add_row(const factor::LinearSystem& system, Index r, std::span<const Run> runs,
+             const Front& front, const Kernels& kernel, double* scratch) {
+  const int width = rows_covered(runs);
+  kernel.gram(system.block(r), system.height[r], width, scratch,
+              scratch + std::int64_t{width} * width + lane);
+  kernel.add(front, scratch, width, runs.data(), static_cast<int>(runs.size()));
+}
+
 // Gathers and eliminates one clique; returns how many of its pivots vanished.
 int eliminate_clique(Elimination& e, const factor::LinearSystem& system,
                      std::span<const double> damping, Index c, const Kernels& kernel,
                      double* scratch) {
   const Front front = e.front(c);
   kernel.clear(front);
-  for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i) {
-    const Index r = e.rows.items[i];
-    const auto runs = e.row_runs[i];
-    const int width = rows_covered(runs);
-    kernel.gram(system.block(r), system.height[r], width, scratch,
-                scratch + std::int64_t{width} * width + lane);
-    kernel.add(front, scratch, width, runs.data(), static_cast<int>(runs.size()));
-  }
+  for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i)
+    add_row(system, e.rows.items[i], e.row_runs[i], front, kernel, scratch);
+  for (Index i = e.rest.begin[c]; i < e.rest.begin[c + 1]; ++i)
+    add_row(system, e.rest.items[i], e.rest_runs[i], front, kernel, scratch);
   if (!damping.empty()) damp(e, c, damping, front);
-  for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i) {
-    const Front child = e.front(e.children.items[i]);
-    const auto runs = e.child_runs[i];
-    kernel.add(front, child.u, child.ld_u(), runs.data(), static_cast<int>(runs.size()));
-  }
-  return kernel.factorize(front, e.floors.data() + e.floor_at[e.tree.frontals[c].front()]);
+  for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i)
+    add_child(kernel, e.front(e.children.items[i]), e.child_runs[i], front);
+  const double* const floor = e.floors.data() + e.floor_at[e.tree.frontals[c].front()];
+  return factorize(kernel, front, floor, scratch, e.threads);
 }
 
 // Runs the tasks, children before parents, on as many threads as were planned.
@@ -207,7 +227,10 @@ Elimination plan_elimination(const factor::LinearSystem& system, const graph::Or
   assert(factor::is_laid_out(system));
   Elimination e;
   e.tree = clique_tree(*system.pattern, order);
+  e.rows = graph::grouped(e.tree.row_clique, e.tree.cliques());
+  e.children = graph::grouped(e.tree.parent, e.tree.cliques());
   plan_scalars(*system.pattern, e);
+  plan_leaves(e);
   plan_runs(*system.pattern, e);
   plan_tasks(e, threads);
   plan_storage(system, e);
@@ -222,7 +245,8 @@ std::vector<Index> eliminate(Elimination& e, const factor::LinearSystem& system,
   const Kernels& kernel = kernels();
   std::atomic<int> dropped = 0;
   run_tasks(e, [&](Index t) {
-    double* const scratch = e.scratch.data() + e.scratch_size * t;
+    const int thread = e.threads <= 1 ? 0 : tbb::this_task_arena::current_thread_index();
+    double* const scratch = e.scratch.data() + e.scratch_size * thread;
     int here = 0;
     for (Index c = e.tasks[t].first; c <= e.tasks[t].last; ++c)
       here += eliminate_clique(e, system, damping, c, kernel, scratch);

@@ -5,6 +5,9 @@
 // front (front.h), eliminates its frontal variables, and passes the rest up; then every clique,
 // roots first, solves for its frontal variables given its separator's.
 //
+// A leaf of few frontal scalars, as a landmark is, forms no update: its parent takes the outer
+// product of its L21 straight from its own front, and assembles the rest of its rows.
+//
 // What depends on the structure alone is planned once; linearizing and eliminating again writes
 // over the same numbers and allocates nothing. Updates live on two stacks, one for cliques of even
 // depth and one for those of odd depth, so that children lie on top of the one while their parent
@@ -33,11 +36,13 @@ struct Elimination {
   std::vector<Index> floor_at;  // n: where its pivots' floors are, in elimination order
 
   std::vector<Offset> l_at;      // C, into conditionals
-  std::vector<Offset> u_at;      // C, into updates
+  std::vector<Offset> u_at;      // C, into updates; -1 where none is formed
   graph::Lists<> rows;           // C: what is assembled in every clique
   graph::Lists<> children;       // C
   graph::Lists<Run> row_runs;    // by place in rows: from the Gram matrix to the front
   graph::Lists<Run> child_runs;  // by place in children: from its update to the front
+  graph::Lists<> rest;           // C: rows of children without an update
+  graph::Lists<Run> rest_runs;   // by place in rest: all but the child's frontal variables
 
   // Consecutive cliques that one thread works through; a task's parent waits for it.
   struct Task {
@@ -50,13 +55,13 @@ struct Elimination {
 
   Arena conditionals;
   Arena updates;
-  std::size_t scratch_size = 0;  // what assembling one row, or solving one clique, needs
-  Arena scratch;                 // as much for every task
+  std::size_t scratch_size = 0;  // what assembling one row, or a clique's numbers, needs
+  Arena scratch;                 // as much for every thread
   std::vector<double> floors;    // n scalars, in elimination order
 
   Front front(Index c) {
     const int f = tree.frontal_dim[c];
-    return {conditionals.data() + l_at[c], updates.data() + u_at[c], f,
+    return {conditionals.data() + l_at[c], u_at[c] < 0 ? nullptr : updates.data() + u_at[c], f,
             f + tree.separator_dim[c] + 1};
   }
 };

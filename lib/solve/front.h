@@ -35,9 +35,9 @@ constexpr std::int64_t diagonal_at(std::int64_t k, std::int64_t ld) {
 
 struct Front {
   double* l;
-  double* u;
-  int f;  // frontal scalars
-  int n;  // all rows: frontal, separator, right-hand side
+  double* u;  // null: it is not formed, and kernels leave it out
+  int f;      // frontal scalars
+  int n;      // all rows: frontal, separator, right-hand side
 
   int s() const { return n - f - 1; }  // separator scalars
   int ld_l() const { return round_up(n); }
@@ -54,10 +54,23 @@ struct Run {
   int length;
 };
 
+// Some columns of a front's L11, and what is below them packed for the caches: rows by tiles, each
+// tile by column. Source: Goto and van de Geijn, Anatomy of high-performance matrix multiplication
+// (2008).
+struct Panel {
+  int first, width;
+  double* block;      // ld_block * width: its square of L11
+  double* diagonals;  // 10 * width / 4: its blocks of four on the diagonal, factorized
+  double* packed;     // tiles * tile * width
+
+  int ld_block() const { return round_up(width) + lane; }  // no power of two
+};
+
 // The kernels are compiled for several instruction sets. Sums are taken in another order on another
 // instruction set, but always in the same one on the same.
 struct Kernels {
   const char* name;
+  int tile;  // rows in one of a panel
 
   void (*clear)(const Front& front);
 
@@ -70,10 +83,21 @@ struct Kernels {
   // triangle.
   void (*add)(const Front& front, const double* matrix, int ld, const Run* runs, int count);
 
+  // front -= a a', lower triangle only: a has `depth` columns; its rows `from` go to `to`, ascending in `to`.
+  void (*subtract_square)(const Front& front, const double* a, int lda, int depth, const Run* runs,
+                          int count);
+
   // Partial Cholesky. A pivot that is not above its `floor` (f numbers; pivots.h), or not finite, is
   // dropped: its column becomes zero (NaN where it was that), as if the scalar were held. Returns
   // how many were.
   int (*factorize)(const Front& front, const double* floor);
+
+  // The same by panels (factorize.h): how many tiles of rows lie below one; its square of L11; its columns in some of these
+  // tiles; and what they take from the columns behind it, in the rows of some tiles.
+  int (*tiles)(const Front& front, const Panel& panel);
+  int (*factorize_block)(const Front& front, const Panel& panel, const double* floor);
+  void (*solve_tiles)(const Front& front, const Panel& panel, int first, int last);
+  void (*update_tiles)(const Front& front, const Panel& panel, int first, int last);
 
   // r := L11^-T, f x f by column of leading dimension round_up(f), zero below the diagonal. No pivot of L11 was dropped.
   void (*invert)(const Front& front, double* r);

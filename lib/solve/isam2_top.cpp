@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "lib/solve/assembly.h"
 #include "lib/solve/clique_tree.h"
 #include "lib/solve/isam2_leave.h"
 #include "lib/solve/isam2_steps.h"
@@ -88,8 +89,9 @@ graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
 }
 
 // Adds clique k of the top's tree to the smoother's: work.variables and work.rows say what its
-// numbers mean there.
-Index adopt_clique(Isam2& isam, const CliqueTree& top, Index k, std::span<const Index> rows) {
+// numbers mean there. leaf: nothing will hang below it.
+Index adopt_clique(Isam2& isam, const CliqueTree& top, Index k, std::span<const Index> rows,
+                   bool leaf) {
   const Isam2::Work& work = isam.work;
   const auto frontals = top.frontals[k], separators = top.separators[k];
   Isam2Clique sizes;
@@ -100,6 +102,7 @@ Index adopt_clique(Isam2& isam, const CliqueTree& top, Index k, std::span<const 
   sizes.s = top.separator_dim[k];
   sizes.ec = top.ec[k];
   sizes.made = isam.updates;
+  sizes.factor = leaf && stays_factor(sizes.f, sizes.s);
   const Index c = add_clique(isam.tree, sizes);
   auto to = lists_of(isam.tree, isam.tree.cliques[c]).begin();
   for (Index j : frontals) {
@@ -119,10 +122,15 @@ void adopt_cliques(Isam2& isam, const CliqueTree& top) {
   Isam2::Work& work = isam.work;
   const auto factors = static_cast<Index>(work.rows.size());
   const graph::Lists<> rows = graph::grouped(top.row_clique, top.cliques());  // then orphans
+  std::vector<bool> leaf(top.cliques(), true);
+  for (Index p : top.parent) {
+    if (p >= 0) leaf[p] = false;
+  }
   work.made.clear();
   for (Index k = 0; k < top.cliques(); ++k) {
     const auto end = std::ranges::lower_bound(rows[k], factors);
-    work.made.push_back(adopt_clique(isam, top, k, {rows[k].begin(), end}));
+    const bool alone = leaf[k] && end == rows[k].end();  // no orphans either
+    work.made.push_back(adopt_clique(isam, top, k, {rows[k].begin(), end}, alone));
   }
   grow_numbers(isam.tree);
   for (Index k = 0; k < top.cliques(); ++k)

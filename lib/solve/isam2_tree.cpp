@@ -10,7 +10,7 @@ Offset list_size(const Isam2Clique& c) {
 }
 Offset number_size(const Isam2Clique& c) {
   const Front front{nullptr, nullptr, c.f, c.f + c.s + 1};
-  return front.size_l() + front.size_u();
+  return front.size_l() + (c.factor ? 0 : front.size_u());
 }
 
 Index free_place(Isam2Tree& tree) {
@@ -27,7 +27,7 @@ Index free_place(Isam2Tree& tree) {
 
 Front front_of(Isam2Tree& tree, const Isam2Clique& c) {
   Front front{tree.numbers.at(c.numbers), nullptr, c.f, c.f + c.s + 1};
-  front.u = front.l + front.size_l();
+  if (!c.factor) front.u = front.l + front.size_l();
   return front;
 }
 

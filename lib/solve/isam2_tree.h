@@ -27,6 +27,7 @@ struct Isam2Clique {
   std::int64_t ec = 0;  // share of EC_BT
   Index made = -1;      // in which update
   Index marked = -1;    // in which update, to be taken out
+  bool factor = false;  // forms no update: its parent takes its factor (assembly.h)
 
   Index parent = -1;
   Index first_child = -1;

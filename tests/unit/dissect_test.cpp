@@ -215,11 +215,23 @@ TEST_CASE("what pieces say they cost is what the order costs", "[dissect]") {
   for (int trial = 0; trial < 12; ++trial) {
     const Pattern pattern = odd_grid(random, draw(random, 15, 45));
     const Adjacency graph = sg::graph::adjacency(pattern);
-    const auto found = sg::order::nested_dissection(graph, pattern.dim, 0);
-    REQUIRE(sg::graph::is_permutation(found.order, pattern.variables()));
+    const Index n = pattern.variables();
+    const auto found = sg::order::nested_dissection(graph, pattern.dim, n, 0);
+    REQUIRE(sg::graph::is_permutation(found.order, n));
     CHECK(sg::elim::to_string(found.ec) ==
           sg::elim::to_string(sg::elim::elimination_complexity(pattern, found.order)));
-    CHECK(sg::order::nested_dissection(graph, pattern.dim, 0).order == found.order);
+    CHECK(sg::order::nested_dissection(graph, pattern.dim, n, 0).order == found.order);
+    // A part of it, with the others after it in any order.
+    const Index inner = n - draw(random, 1, n / 4);
+    auto part = sg::order::nested_dissection(graph, pattern.dim, inner, 0);
+    REQUIRE(sg::graph::is_permutation(part.order, inner));
+    for (Index v = inner; v < n; ++v) part.order.push_back(v);
+    const sg::elim::Symbolic symbolic = sg::elim::symbolic(pattern, part.order);
+    sg::elim::Wide ec = 0;
+    for (Index k = 0; k < inner; ++k) {
+      ec += sg::elim::elimination_cost(symbolic.dim[k], symbolic.count[k]);
+    }
+    CHECK(sg::elim::to_string(part.ec) == sg::elim::to_string(ec));
   }
 }
 

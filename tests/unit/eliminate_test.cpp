@@ -1,6 +1,9 @@
 // The multifrontal elimination against dense algebra, and its cliques against lib/elim's.
 #include "lib/solve/eliminate.h"
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -10,6 +13,7 @@
 #include "lib/elim/score.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
+#include "lib/solve/factorize.h"
 #include "lib/solve/marginals.h"
 #include "tests/unit/common.h"
 
@@ -149,6 +153,132 @@ TEST_CASE("kernels of every instruction set do dense partial Cholesky", "[elimin
   }
 }
 
+TEST_CASE("kernels: by panels of any width, by any number of threads, the bytes are the same",
+          "[eliminate][parallel]") {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
+  Random random(7);
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
+    for (const int f : {1, 2, 3, 31, 33, 64, 257}) {
+      for (const int s : {0, 1, 2, 31, 33, 257}) {
+        INFO(kernel->name << ", " << f << " frontals, separator " << s);
+        DenseFront dense(random, f, s);
+        const int n = dense.front.n;
+        const sg::solve::Run all{0, 0, n};
+        const std::vector<double> floor(f, 1e-9);
+        const auto fill = [&] {
+          kernel->clear(dense.front);
+          kernel->add(dense.front, dense.full.data(), n, &all, 1);
+        };
+        const auto lower = [&] {
+          std::vector<double> numbers;
+          for (int j = 0; j < n; ++j) {
+            for (int i = j; i < n; ++i) numbers.push_back(dense.at(i, j));
+          }
+          return numbers;
+        };
+        fill();
+        REQUIRE(kernel->factorize(dense.front, floor.data()) == 0);
+        const std::vector<double> expected = lower();
+        for (const int width : {4, 32, 128}) {
+          for (const int threads : {1, 3}) {
+            std::vector<double> work(sg::solve::panel_work(*kernel, n, width));
+            fill();
+            int dropped = -1;
+            tbb::task_arena(threads).execute([&] {
+              dropped = sg::solve::factorize_by_panels(*kernel, dense.front, floor.data(),
+                                                       work.data(), threads, width);
+            });
+            REQUIRE(dropped == 0);
+            const bool same = lower() == expected;
+            CHECK(same);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("kernels: a pivot is dropped by panels as by columns", "[eliminate]") {
+  Random random(8);
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
+    INFO(kernel->name);
+    DenseFront dense(random, 40, 20);
+    const int n = dense.front.n;
+    for (const int gone : {5, 6, 37}) {  // twice the column before
+      dense.full.col(gone) = 2 * dense.full.col(gone - 1);
+      dense.full.row(gone) = 2 * dense.full.row(gone - 1);
+    }
+    const sg::solve::Run all{0, 0, n};
+    const std::vector<double> floor(40, 1e-9);
+    std::vector<double> work(sg::solve::panel_work(*kernel, n, 8)), l;
+    for (const bool panels : {false, true}) {
+      kernel->clear(dense.front);
+      kernel->add(dense.front, dense.full.data(), n, &all, 1);
+      const int dropped = panels ? sg::solve::factorize_by_panels(*kernel, dense.front,
+                                                                  floor.data(), work.data(), 1, 8)
+                                 : kernel->factorize(dense.front, floor.data());
+      CHECK(dropped == 3);
+      std::vector<double> bottom;  // row of the right-hand side
+      for (int j = 0; j < n; ++j) bottom.push_back(dense.at(n - 1, j));
+      if (!panels) l = bottom;
+      CHECK(bottom == l);
+    }
+  }
+}
+
+TEST_CASE(
+    "kernels: a square taken from a front, its rows in any order, and a front without an update",
+    "[eliminate]") {
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
+    INFO(kernel->name);
+    for (int trial = 0; trial < 200; ++trial) {
+      Random random(trial);
+      const int depth = draw(random, 1, 9);
+      DenseFront dense(random, draw(random, 1, 40), draw(random, 0, 60));
+      const int n = dense.front.n;
+      std::vector<sg::solve::Run> runs;  // of some rows of the front, from rows in another order
+      for (int to = draw(random, 0, 3); to < n;) {
+        const int length = std::min(draw(random, 1, 20), n - to);
+        runs.push_back({0, to, length});
+        to += length + draw(random, 0, 5);
+      }
+      const std::vector<sg::Index> order = shuffled(random, static_cast<sg::Index>(runs.size()));
+      int height = 0;
+      for (const sg::Index k : order) {
+        runs[k].from = height;
+        height += runs[k].length;
+      }
+      if (runs.empty()) continue;
+      const int ld = sg::solve::round_up(height);
+      const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(
+          ld, depth, [&](Eigen::Index, Eigen::Index) { return uniform(random, -1, 1); });
+      Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(n, depth);
+      for (const sg::solve::Run& run : runs)
+        spread.middleRows(run.to, run.length) = a.middleRows(run.from, run.length);
+      const Eigen::MatrixXd expected = dense.full - spread * spread.transpose();
+
+      const bool formed = trial % 2 == 0;
+      if (!formed) dense.front.u = nullptr;
+      std::fill(dense.u.begin(), dense.u.end(), 7.0);
+      const sg::solve::Run all{0, 0, n};
+      kernel->clear(dense.front);
+      kernel->add(dense.front, dense.full.data(), n, &all, 1);
+      kernel->subtract_square(dense.front, a.data(), ld, depth, runs.data(),
+                              static_cast<int>(runs.size()));
+      double worst = 0;
+      for (int j = 0; j < (formed ? n : dense.front.f); ++j) {
+        for (int i = j; i < n; ++i)
+          worst = std::max(worst, std::abs(dense.at(i, j) - expected(i, j)));
+      }
+      CHECK(worst < 1e-10);
+      if (formed) continue;
+      const std::vector<double> floor(dense.front.f, -1e9);
+      kernel->factorize(dense.front, floor.data());
+      CHECK(std::ranges::count(dense.u, 7.0) == static_cast<std::ptrdiff_t>(dense.u.size()));
+    }
+  }
+}
+
 TEST_CASE("kernels: a product, whatever lies behind its last rows", "[eliminate]") {
   Random random(3);
   const auto padded = [&](int rows, int columns) {
@@ -267,6 +397,7 @@ TEST_CASE("kernels: Gram matrix and scattered sum, in either order", "[eliminate
 
 TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate]") {
   Random random(3);
+  std::ptrdiff_t factors = 0;  // cliques without an update
   for (int trial = 0; trial < 200; ++trial) {
     const int n = draw(random, 1, 40);
     System system = random_system(random, n, draw(random, 0, 3 * n));
@@ -283,6 +414,7 @@ TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate
 
     const int threads = 1 + trial % 3;
     auto elimination = sg::solve::plan_elimination(system.linear, shuffled(random, n), threads);
+    factors += std::ranges::count(elimination.u_at, -1);
     std::vector<double> step;
     for (int again = 0; again < 2; ++again) {
       REQUIRE(sg::solve::eliminate(elimination, system.linear, damping).empty());
@@ -293,6 +425,34 @@ TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate
       CHECK(sg::solve::log_determinant(elimination) == Approx(log_determinant).margin(1e-6));
     }
   }
+  CHECK(factors > 20);
+}
+
+TEST_CASE("a front that is worked through by panels and in parallel solves its system",
+          "[eliminate][parallel]") {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
+  Random random(9);
+  System system;
+  const int n = 200;
+  system.pattern.dim.assign(n, 6);
+  std::vector<sg::Index> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  for (sg::Index j : all) add_row(system, 7, {j}, random);
+  add_row(system, 3, all, random);
+  system.linear.pattern = &system.pattern;
+  const Dense full = dense(system);
+  std::vector<double> first, step;
+  for (const int threads : {1, 2, 3}) {
+    auto elimination = sg::solve::plan_elimination(system.linear, all, threads);
+    REQUIRE(elimination.tree.cliques() == 1);
+    REQUIRE(sg::solve::factorization_work(sg::solve::kernels(), 6 * n, 6 * n + 1) > 0);
+    REQUIRE(sg::solve::eliminate(elimination, system.linear).empty());
+    sg::solve::back_substitute(elimination, step);
+    if (first.empty()) first = step;
+    CHECK(step == first);
+  }
+  const Eigen::VectorXd gradient = full.a.transpose() * (full.a * as_vector(step) - full.b);
+  CHECK(gradient.norm() < 1e-9);
 }
 
 TEST_CASE("undetermined variables are named, the others solved", "[eliminate]") {

@@ -64,9 +64,35 @@ END
   awk -v most="$(sg-score --no-header -f overconfidence --reference full.g2o careful.g2o)" 'BEGIN {exit !(most < 1 + 1e-6)}'
 }
 
+@test "elimination complexity has a price, or a budget" {
+  sg-gen manhattan -n 300 --seed 3 | sg-solve -q -o full.g2o
+  ec() { sg-ec -m wmf -f ec --no-header "$1"; }
+  marg() { sg-marg -q -r 2 --topology ec --cluster global "$@" full.g2o; }
+  marg --price 100 -o dear.g2o
+  marg --price 0.01 -o cheap.g2o
+  [ "$(ec dear.g2o)" -lt "$(ec cheap.g2o)" ]
+  printf '%s\n' "$(kld cheap.g2o full.g2o)" "$(kld dear.g2o full.g2o)" | sort -gc
+  budget=$((($(ec dear.g2o) + $(ec cheap.g2o)) / 2))
+  marg --ec "$budget" -o within.g2o
+  [ "$(ec within.g2o)" -le "$budget" ]
+  [ "$(ec within.g2o)" -ge "$(ec dear.g2o)" ]
+  run -0 sg-marg -r 2 --topology ec --ec 1 full.g2o -o little.g2o
+  [[ $output == "sg-marg: an EC of 1 is less than that of the sparsest graph found, "* ]]
+}
+
+@test "a graph that was at its optimum stays there" {
+  sg-gen sphere -n 200 --seed 2 | sg-solve -q -o full.g2o
+  for how in '--topology tree' '--topology subgraph' '--topology ec --cluster global'; do
+    echo "$how"
+    sg-marg -r 4 $how full.g2o -o left.g2o
+    sg-solve -q left.g2o -o again.g2o
+    near "$(sg-score --no-header --align none -f ate_rmse --reference full.g2o again.g2o)" 0 1e-5
+  done
+}
+
 @test "every topology and clustering leaves a graph that is sound, of g2o's own tags" {
   sg-gen manhattan -n 60 --seed 3 | sg-solve -q -o full.g2o
-  for topology in tree subgraph l1 seif 'dense --as poses'; do
+  for topology in tree subgraph l1 seif ec 'dense --as poses'; do
     for cluster in online batch global; do
       echo "$topology $cluster"
       sg-marg -r 3 --topology $topology --cluster $cluster full.g2o -o left.g2o
@@ -90,6 +116,7 @@ END
 @test "calls that make no sense" {
   fails 2 "sg-marg: which vertices? Give --ids, -r, --dist or --angle, --older-than or --landmarks (see sg-marg --help)" sg-marg walk.g2o
   fails 2 "sg-marg: --as factors is of --topology dense: a sparse one has poses (see sg-marg --help)" sg-marg -r 2 --as factors walk.g2o
+  fails 2 "sg-marg: --price has no effect but with --topology ec (see sg-marg --help)" sg-marg -r 2 --price 2 walk.g2o
   fails 2 "sg-marg: --landmarks wants all, or a number of observations, not 'few' (see sg-marg --help)" sg-marg --landmarks few walk.g2o
   grep -v VERTEX walk.g2o | grep -v FIX >edges.g2o
   fails 1 "sg-marg: edges.g2o: there are no VERTEX lines, hence no estimates to linearize at (sg-solve adds them)" \

@@ -67,10 +67,41 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   [ "$(shapes none.svg "$path")" -eq 1 ]
 }
 
-@test "the Bayes tree has a circle for every clique" {
+# cells FILE: x, y, width and height of the cells of a tree.
+cells() { sed -nE 's/^<path .*fill:rgb.* d="M ([0-9.]+) ([0-9.]+) L ([0-9.]+) [0-9.]+ L [0-9.]+ ([0-9.]+) L.*/\1 \2 \3 \4/p' "$1" |
+  awk '{print $1, $2, $3 - $1, $4 - $2}'; }
+
+@test "the Bayes tree has a cell for every clique, as wide as what hangs on it costs" {
   printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >in.g2o
-  sg-plot tree -m id in.g2o >tree.svg  # {2 3} and below it {1}
-  [ "$(grep -o "fill:$path" tree.svg | wc -l)" -eq 2 ]
+  sg-plot tree -m id in.g2o >tree.svg  # {2 3}: 6 * 6^2, and below it {1}: 3 * 6^2
+  [ "$(cells tree.svg | wc -l)" -eq 2 ]
+  cells tree.svg | awk 'NR == 1 {wide = $3} NR == 2 {exit !($1 == 24 && $3 > 0.32 * wide && $3 < 0.34 * wide)}'
+  cells tree.svg | awk 'NR == 1 {low = $2 + $4} NR == 2 {exit !($2 > low)}'
+  # Of a large one none lies on another, and none beyond its row.
+  sg-gen manhattan -n 3000 | sg-plot tree -m wmf >large.svg
+  [ "$(cells large.svg | wc -l)" -gt 300 ]
+  cells large.svg | sort -g -k 2,2 -k 1,1 | awk '$2 == row && $1 < end - 0.2 {bad = 1} {row = $2; end = $1 + $3} END {exit bad}'
+}
+
+@test "a map in space is seen where it is widest, or from where one says" {
+  # A square that stands upright in the plane of x = 0, wider than high.
+  printf 'VERTEX_SE3:QUAT %s 0 0 0 1\n' "0 0 0 0" "1 0 10 0" "2 0 10 4" "3 0 0 4" >wall.g2o
+  printf 'EDGE_SE3:QUAT %s 1 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n' "0 1" "1 2" "2 3" >>wall.g2o
+  sg-plot map wall.g2o >best.svg
+  cmp best.svg <(sg-plot map --plane yz wall.g2o)
+  sg-plot map --view 90,0 wall.g2o | cmp - best.svg
+  sg-plot map --plane xy walk.g2o | cmp - <(sg-plot map walk.g2o)
+  sg-plot map --view 0,90 walk.g2o | cmp - <(sg-plot map walk.g2o)
+  sg-plot map --view 30,40 --sigma wall.g2o >/dev/null
+  run -2 sg-plot map --view 30 wall.g2o
+  run -2 sg-plot map --view 30,40 --plane xy wall.g2o
+  run -2 sg-plot tree --view 30,40 wall.g2o
+}
+
+@test "a pattern tells its entries and its fill" {
+  sg-plot pattern walk.g2o >pattern.svg
+  sg-plot tree walk.g2o >tree.svg
+  [ "$(letters pattern.svg)" -ge "$(($(letters tree.svg) + 20))" ]
 }
 
 @test "the pattern is framed, and the legend of costs has 40 colours, two points each" {
