@@ -10,6 +10,8 @@
 #include "cmd/ecgreedy/budget.h"
 #include "lib/factor/initialize.h"
 #include "lib/prune/ecgreedy.h"
+#include "lib/prune/exchange.h"
+#include "lib/prune/part.h"
 #include "lib/score/covariance.h"
 
 using namespace sg;
@@ -51,11 +53,12 @@ struct Row {
 
 const std::vector<cmd::Column<Row>> columns{
     {"move", "Its number; the start has 0", &Row::move},
-    {"kind", "start, edge, landmark or free", [](Row& row) { return name(row.made.kind); }},
+    {"kind", "start, edge, landmark, drop or free", [](Row& row) { return name(row.made.kind); }},
     {"first", "Id of the first vertex of its edge, or first edge",
      [](Row& row) { return row.end(0); }},
     {"second", "Id of its second vertex", [](Row& row) { return row.end(1); }},
-    {"added", "Candidates that come in by it", [](Row& row) { return row.made.edges.size(); }},
+    {"added", "Candidates that come in by it, or go by a drop",
+     [](Row& row) { return row.made.edges.size(); }},
     {"gain", "By how much it improves what is maximized", &Row::gain},
     {"increase", "Of EC, under the order as it was", [](Row& row) { return row.made.increase; }},
     {"ec", "After it, under that order", [](Row& row) { return row.made.ec; }},
@@ -82,9 +85,9 @@ void add_options(cmd::Command& command, Options& options) {
       ->allow_extra_args(false)
       ->check(cmd::above_zero());
   cmd::add_amount(command, options.amount);
-  app.add_option("--gain", options.gain, "What counts: trace (default), logdet, trees")
+  app.add_option("--gain", options.gain, "What counts: trace (default), aligned, logdet, trees")
       ->option_text("KIND")
-      ->check(cmd::one_of({"trace", "logdet", "trees"}));
+      ->check(cmd::one_of({"trace", "aligned", "logdet", "trees"}));
   app.add_flag("--no-free", options.no_free, "Leave out what would cost no EC as well");
   app.add_option("-m,--method", options.method.names,
                  "The ordering that EC is counted in (default: wmf)")
@@ -202,8 +205,10 @@ std::vector<prune::Move> moves_at(const cmd::Command& command, const Options& op
                                   const Subject& subject, std::span<const prune::Move> moves,
                                   const prune::EcGreedyOptions& greedy) {
   if (greedy.ec) moves = within(command, subject, moves, greedy);
-  if (options.no_free) return {moves.begin(), moves.end()};
-  return ecgreedy::with_free(subject.choice, subject.evidence, moves, greedy);
+  std::vector<prune::Move> made(moves.begin(), moves.end());
+  if (greedy.ec) made = prune::exchanged(subject.choice, subject.evidence, greedy, std::move(made));
+  if (options.no_free) return made;
+  return ecgreedy::with_free(subject.choice, subject.evidence, made, greedy);
 }
 
 void write(const cmd::Command& command, const cmd::PruneOptions& pruning, bool asked,
@@ -219,7 +224,9 @@ void run(const cmd::Command& command, const Options& options) {
   Subject subject(cmd::read_prunable(options.pruning), options);
   const Graph& graph = subject.from.graph;
   prune::EcGreedyOptions greedy;
-  greedy.gain = options.gain == "trace" ? prune::GainKind::trace : prune::GainKind::log_det;
+  greedy.gain = options.gain == "trace"     ? prune::GainKind::trace
+                : options.gain == "aligned" ? prune::GainKind::aligned
+                                            : prune::GainKind::log_det;
   greedy.seed = options.method.seed;
   const cmd::Method method = cmd::methods(options.method, graph).front();
   greedy.order = [&](const graph::GraphPattern& variables) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/prune/exchange.h"
+
 namespace sg::ecgreedy {
 
 elim::Wide rounded(double number) {

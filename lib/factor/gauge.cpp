@@ -128,6 +128,18 @@ Index first_pose(const Graph& graph) {
 
 }  // namespace
 
+Eigen::MatrixXd rigid_motions(const Problem& problem, const Values& values) {
+  std::vector<Index> vertices(problem.graph->vertices());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  const Frame frame = frame_of(problem, values, vertices);
+  Eigen::MatrixXd result(problem.step_at.back(), rigid);
+  for (Index j = 0; j < problem.variables.pattern.variables(); ++j) {
+    const Motions steps = motions_of(problem, values, problem.variables.variable_vertex[j], frame);
+    result.middleRows(problem.step_at[j], steps.rows()) = steps.leftCols<rigid>();
+  }
+  return result;
+}
+
 bool is_anchor(const Problem& problem, Index e) {
   const Graph& graph = *problem.graph;
   const auto ends = graph.edge(e);

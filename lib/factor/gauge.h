@@ -7,12 +7,17 @@
 // how large the whole is, either; then its scale is free.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
 #include "lib/factor/linearize.h"
 
 namespace sg::factor {
+
+// The steps of all variables, by scalar, that the six rigid motions of the whole make, about the centre of its vertices
+// and in units of its radius; those of the plane are three, and zeros.
+Eigen::MatrixXd rigid_motions(const Problem& problem, const Values& values);
 
 // Whether an edge can notice a motion of the whole.
 bool is_anchor(const Problem& problem, Index e);

@@ -1,5 +1,8 @@
 #include "lib/prune/evidence.h"
 
+#include <Eigen/Eigenvalues>
+
+#include "lib/factor/gauge.h"
 #include "lib/factor/space.h"
 #include "lib/graph/components.h"
 
@@ -10,6 +13,21 @@ Index count_poses(const Graph& graph) {
   Index poses = 0;
   for (Index v = 0; v < graph.vertices(); ++v) poses += graph.role(v) == graph::Role::pose;
   return poses;
+}
+
+constexpr double least_motion = 1e-9;  // beside the largest, squared
+
+// An orthonormal basis of what these columns span.
+Eigen::MatrixXd basis(const Eigen::MatrixXd& columns) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(columns.transpose() * columns);
+  const Eigen::VectorXd& squares = spectrum.eigenvalues();
+  Eigen::MatrixXd result(columns.rows(), 0);
+  for (Eigen::Index k = 0; k < squares.size(); ++k) {
+    if (!(squares(k) > least_motion * squares(squares.size() - 1))) continue;
+    result.conservativeResize(Eigen::NoChange, result.cols() + 1);
+    result.rightCols(1) = columns * spectrum.eigenvectors().col(k) / std::sqrt(squares(k));
+  }
+  return result;
 }
 
 // Closes a row of this height whose variables, and whose numbers but for b, are there.
@@ -46,12 +64,17 @@ Evidence measured_evidence(const factor::Problem& problem, const factor::Values&
   evidence.held = problem.held >= 0;
   evidence.variable_vertex = problem.variables.variable_vertex;
   evidence.vertex_variable = problem.variables.vertex_variable;
+  Eigen::MatrixXd motions = factor::rigid_motions(problem, values);
   for (Index j = 0; j < evidence.pattern.variables(); ++j) {
     const Index v = evidence.variable_vertex[j];
-    const bool moves = j != problem.held && problem.graph->role(v) == graph::Role::pose;
-    for (int k = 0; k < evidence.pattern.dim[j]; ++k)
-      evidence.position.push_back(moves && !factor::is_turn(problem.space[v], k));
+    for (int k = 0; k < evidence.pattern.dim[j]; ++k) {
+      const bool places =
+          problem.graph->role(v) == graph::Role::pose && !factor::is_turn(problem.space[v], k);
+      evidence.position.push_back(places && j != problem.held);
+      if (!places) motions.row(evidence.step_at[j] + k).setZero();
+    }
   }
+  evidence.drift = basis(motions);
   return evidence;
 }
 

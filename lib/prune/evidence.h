@@ -6,6 +6,7 @@
 // the number of spanning trees (lib/trees/tree_weights.h). That knows any tag.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "lib/factor/linearize.h"
@@ -17,10 +18,11 @@ struct Evidence {
   std::vector<int> height;    // of every row's block [A b], by column
   std::vector<Offset> begin;  // of every block in numbers, and the end
   std::vector<double> numbers;
-  std::vector<Index> step_at;          // n + 1: where a variable's scalars start
-  std::vector<bool> position;          // of every scalar: whether it is one of a pose's position
-  Index poses = 0;                     // of the graph, constants included
-  bool held = true;                    // whether a row of its own holds the gauge
+  std::vector<Index> step_at;  // n + 1: where a variable's scalars start
+  std::vector<bool> position;  // of every scalar: whether it is one of a pose's position
+  Eigen::MatrixXd drift;  // scalars x motions: of the positions when the whole moves, orthonormal
+  Index poses = 0;        // of the graph, constants included
+  bool held = true;       // whether a row of its own holds the gauge
   std::vector<Index> variable_vertex;  // as in GraphPattern
   std::vector<Index> vertex_variable;
 

@@ -15,6 +15,8 @@ using solve::Rows;
 
 // Of a landmark by the rows that bring it: below this share of its largest singular value it is not determined.
 constexpr double rank_tolerance = 1e-4;
+// Of what rows that are in tell of themselves: less than this is left to the others, and they are needed.
+constexpr double least_left = 1e-6;
 // Columns of right-hand sides at a time: memory stays linear.
 constexpr Index strip = 64;
 
@@ -69,18 +71,39 @@ void draw_signs(boost::random::mt19937& bits, auto&& row) {
   for (int i = 0; i < draws; ++i) row(i) = (word >> i & 1U) != 0 ? 1 : -1;
 }
 
+// Calls visit(row in elimination order, scalar) for all scalars.
+void each_scalar(const Knowledge& knowledge, const auto& visit) {
+  const Evidence& evidence = knowledge.evidence;
+  for (Index j = 0; j < evidence.pattern.variables(); ++j) {
+    for (int k = 0; k < evidence.pattern.dim[j]; ++k)
+      visit(knowledge.triangle.row(j) + k, evidence.step_at[j] + k);
+  }
+}
+
+void place_drift(Knowledge& knowledge) {
+  const MatrixXd& drift = knowledge.evidence.drift;
+  knowledge.drift.resize(knowledge.triangle.rows(), knowledge.aligned ? drift.cols() : 0);
+  if (!knowledge.aligned) return;
+  each_scalar(knowledge,
+              [&](Index row, Index scalar) { knowledge.drift.row(row) = drift.row(scalar); });
+}
+
 // X and Y: only Y has a lower half.
 void draw_responses(Knowledge& knowledge) {
   const Evidence& evidence = knowledge.evidence;
   const Index rows = knowledge.triangle.rows();
   Rows both = Rows::Zero(rows, 2 * draws);
-  for (Index j = 0; j < evidence.pattern.variables(); ++j) {
-    for (int k = 0; k < evidence.pattern.dim[j]; ++k) {
-      const Index row = knowledge.triangle.row(j) + k;
-      draw_signs(knowledge.bits, both.row(row).head<draws>());
-      if (evidence.position[evidence.step_at[j] + k])
-        draw_signs(knowledge.bits, both.row(row).tail<draws>());
-    }
+  auto y = both.rightCols<draws>();
+  each_scalar(knowledge, [&](Index row, Index scalar) {
+    draw_signs(knowledge.bits, both.row(row).head<draws>());
+    const bool drifts = knowledge.drift.cols() > 0 && !knowledge.drift.row(row).isZero(0);
+    if (evidence.position[scalar] || drifts) draw_signs(knowledge.bits, y.row(row));
+  });
+  if (knowledge.aligned) {
+    y -= knowledge.drift * (knowledge.drift.transpose() * y).eval();
+    each_scalar(knowledge, [&](Index row, Index scalar) {
+      if (!evidence.position[scalar]) y.row(row).setZero();
+    });
   }
   solve::solve_lower(knowledge.triangle, both.rightCols<draws>());
   solve::solve_upper(knowledge.triangle, both);
@@ -88,69 +111,77 @@ void draw_responses(Knowledge& knowledge) {
   knowledge.y = both.rightCols<draws>();
 }
 
-// U' V of two roots.
-MatrixXd inner_product(const Knowledge& knowledge, const Tried& a, const Tried& b) {
+// to += U' V of two roots, by row.
+void add_inner_product(const Knowledge& knowledge, const Knowledge::Added& a, const Tried& b,
+                       double* to, int stride) {
   const std::vector<int>& width = knowledge.factor.tree.frontal_dim;
-  MatrixXd result = MatrixXd::Zero(a.root.cols(), b.root.cols());
+  const auto add = [&](Eigen::Index at, Eigen::Index bt, Eigen::Index rows) {
+    solve::kernels().add_inner_products(
+        to, stride, a.root.data() + at, static_cast<int>(a.root.rows()), a.height,
+        b.root.data() + bt, static_cast<int>(b.root.rows()), b.height(), static_cast<int>(rows));
+  };
   // From where on both ways to the root are one, and that part's rows.
   auto i = a.path.size(), k = b.path.size();
-  Eigen::Index rows = 0;
+  int rows = 0;
   for (; i > 0 && k > 0 && a.path[i - 1] == b.path[k - 1]; --i, --k) rows += width[a.path[i - 1]];
-  result.noalias() += a.root.bottomRows(rows).transpose() * b.root.bottomRows(rows);
   // What else they share, of several ways each.
   Eigen::Index at = 0, bt = 0;
-  for (std::size_t p = 0, q = 0; p < i && q < k;) {
-    if (a.path[p] == b.path[q]) {
-      const int f = width[a.path[p]];
-      result.noalias() += a.root.middleRows(at, f).transpose() * b.root.middleRows(bt, f);
-    }
+  std::size_t p = 0, q = 0;
+  while (p < i && q < k) {
+    if (a.path[p] == b.path[q]) add(at, bt, width[a.path[p]]);
     const bool left = a.path[p] <= b.path[q], right = b.path[q] <= a.path[p];
     if (left) at += width[a.path[p++]];
     if (right) bt += width[b.path[q++]];
   }
-  return result;
+  for (; p < i; ++p) at += width[a.path[p]];
+  for (; q < k; ++q) bt += width[b.path[q]];
+  add(at, bt, solve::round_up(rows));  // zeros behind the last
 }
 
-// U (I + C)^-T/2 of all that was added, transposed: for each, what is its own.
-Rows whitened_roots(const Knowledge& knowledge) {
-  Rows result = Rows::Zero(knowledge.triangle.rows(), knowledge.added_rows);
+// Some rows of a matrix in elimination order.
+struct PartialRows {
+  std::vector<Index> row;  // of each
+  MatrixXd numbers;        // up to a lane
+};
+
+// U (I + C)^-T/2 of all that was added, where that is not zero: for each, what is its own.
+PartialRows whitened_roots(const Knowledge& knowledge) {
+  const std::vector<int>& width = knowledge.factor.tree.frontal_dim;
+  std::vector<Index> at(knowledge.factor.tree.cliques(), -1);
   for (const Knowledge::Added& added : knowledge.added) {
-    Eigen::Index at = 0;
-    for (const Index c : added.of.path) {
-      const int f = knowledge.factor.tree.frontal_dim[c];
-      result.block(knowledge.triangle.first_row[c], added.at, f, added.of.root.cols()) =
-          added.of.root.middleRows(at, f);
-      at += f;
+    for (const Index c : added.path) at[c] = 0;
+  }
+  PartialRows result;
+  for (Index c = 0; c < knowledge.factor.tree.cliques(); ++c) {
+    if (at[c] < 0) continue;
+    at[c] = static_cast<Index>(result.row.size());
+    for (int k = 0; k < width[c]; ++k) result.row.push_back(knowledge.triangle.first_row[c] + k);
+  }
+  const auto rows = static_cast<int>(result.row.size());
+  result.numbers = MatrixXd::Zero(solve::round_up(rows), knowledge.added_rows);
+  for (const Knowledge::Added& added : knowledge.added) {
+    Eigen::Index from = 0;
+    for (const Index c : added.path) {
+      result.numbers.block(at[c], added.at, width[c], added.height) =
+          added.root.middleRows(from, width[c]);
+      from += width[c];
     }
   }
-  MatrixXd factor = MatrixXd::Zero(knowledge.added_rows, knowledge.added_rows);  // of I + C
-  for (const Knowledge::Added& added : knowledge.added) {
-    const auto h = added.l.rows();
-    factor.block(added.at, 0, h, added.at) = added.of.shared.transpose();
-    factor.block(added.at, added.at, h, h) = added.l;
-  }
-  std::vector<bool> reached(knowledge.factor.tree.cliques(), false);
-  for (const Knowledge::Added& added : knowledge.added) {
-    for (const Index c : added.of.path) reached[c] = true;
-  }
-  for (Index c = 0; c < knowledge.factor.tree.cliques(); ++c) {
-    if (!reached[c]) continue;
-    auto rows =
-        result.middleRows(knowledge.triangle.first_row[c], knowledge.factor.tree.frontal_dim[c]);
-    factor.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(rows);
-  }
+  solve::kernels().solve_lower(knowledge.l.data(), static_cast<int>(knowledge.l.rows()),
+                               result.numbers.data(), static_cast<int>(result.numbers.rows()), 0,
+                               knowledge.added_rows, rows);
   return result;
 }
 
 }  // namespace
 
-Knowledge start_knowledge(const Evidence& evidence, std::uint64_t seed) {
-  Knowledge knowledge{evidence, boost::random::mt19937(static_cast<std::uint32_t>(seed)),
-                      {},       {},
-                      {},       {},
-                      {},       {},
-                      {},       {},
-                      0,        {}};
+Knowledge start_knowledge(const Evidence& evidence, bool aligned, std::uint64_t seed) {
+  Knowledge knowledge{evidence, aligned, boost::random::mt19937(static_cast<std::uint32_t>(seed)),
+                      {},       {},      {},
+                      {},       {},      {},
+                      {},       {},      {},
+                      0,        {},      {},
+                      {}};
   knowledge.variance.assign(evidence.pattern.variables(), 0);
   return knowledge;
 }
@@ -163,6 +194,7 @@ std::vector<Index> refactor(Knowledge& knowledge, const Selection& in, const gra
   std::vector<Index> undetermined = solve::eliminate(knowledge.factor, knowledge.selected);
   if (!undetermined.empty()) return undetermined;
   knowledge.triangle = solve::triangle(knowledge.factor);
+  place_drift(knowledge);
   draw_responses(knowledge);
   return undetermined;
 }
@@ -227,11 +259,11 @@ Measurement without(const Evidence& evidence, std::span<const Index> rows, Index
 
 namespace {
 
-Gain gain_of(MatrixXd covariance, const Draws& y) {
-  covariance.diagonal().array() += 1;
-  const Eigen::LLT<MatrixXd> llt(covariance);
+// information: I + C
+Gain gain_of(const MatrixXd& information, const Draws& y) {
+  const Eigen::LLT<MatrixXd> llt(information);
   Gain gain{0, 0};
-  for (Eigen::Index k = 0; k < covariance.rows(); ++k)
+  for (Eigen::Index k = 0; k < information.rows(); ++k)
     gain.log_det += 2 * std::log(llt.matrixLLT()(k, k));
   Draws white = y;
   llt.matrixL().solveInPlace(white);
@@ -239,104 +271,168 @@ Gain gain_of(MatrixXd covariance, const Draws& y) {
   return gain;
 }
 
-}  // namespace
-
-Gain guessed_gain(const Knowledge& knowledge, const Measurement& m) {
-  const Draws jx = product(knowledge, m, knowledge.x);
-  return gain_of(jx.lazyProduct(jx.transpose()) / draws, product(knowledge, m, knowledge.y));
+MatrixXd unit_plus(const MatrixXd& covariance) {
+  return MatrixXd::Identity(covariance.rows(), covariance.cols()) + covariance;
 }
 
-Tried try_measurement(Knowledge& knowledge, const Measurement& m) {
+// U = L^-1 J', on the path.
+MatrixXd root_of(Knowledge& knowledge, const Measurement& m, std::span<const Index> path) {
   const solve::Triangle& triangle = knowledge.triangle;
-  Tried tried;
-  tried.path = solve::path(triangle, m.variables);
   const auto h = m.jacobian.rows();
-  const auto size = static_cast<std::size_t>(triangle.rows() * h);
+  const int stride = solve::round_up(static_cast<int>(h));
+  const auto size = static_cast<std::size_t>(triangle.rows()) * stride;
   if (knowledge.work.size() < size) knowledge.work.resize(size, 0);
-  Eigen::Map<Rows> x(knowledge.work.data(), triangle.rows(), h);
+  Eigen::Map<Rows, 0, Eigen::OuterStride<>> x(knowledge.work.data(), triangle.rows(), h,
+                                              Eigen::OuterStride<>(stride));
   Eigen::Index at = 0;
   for (const Index j : m.variables) {
     const int dim = knowledge.evidence.pattern.dim[j];
     x.middleRows(triangle.row(j), dim) = m.jacobian.middleCols(at, dim).transpose();
     at += dim;
   }
-  solve::solve_lower(triangle, tried.path, x);
-  Eigen::Index rows = 0;
-  for (const Index c : tried.path) rows += knowledge.factor.tree.frontal_dim[c];
-  tried.root.resize(rows, h);
+  solve::solve_lower(triangle, path, x);
+  int rows = 0;
+  for (const Index c : path) rows += knowledge.factor.tree.frontal_dim[c];
+  MatrixXd root = MatrixXd::Zero(solve::round_up(rows + solve::lane - 1), h);
   rows = 0;
-  for (const Index c : tried.path) {
+  for (const Index c : path) {
     const int f = knowledge.factor.tree.frontal_dim[c];
-    tried.root.middleRows(rows, f) = x.middleRows(triangle.first_row[c], f);
+    root.middleRows(rows, f) = x.middleRows(triangle.first_row[c], f);
     x.middleRows(triangle.first_row[c], f).setZero();
     rows += f;
   }
-  tried.covariance.noalias() = tried.root.transpose() * tried.root;
+  return root;
+}
+
+}  // namespace
+
+Gain guessed_gain(const Knowledge& knowledge, const Measurement& m) {
+  const Draws jx = product(knowledge, m, knowledge.x);
+  return gain_of(unit_plus(jx.lazyProduct(jx.transpose()) / draws),
+                 product(knowledge, m, knowledge.y));
+}
+
+Tried try_measurement(Knowledge& knowledge, const Measurement& m) {
+  Tried tried;
+  tried.path = solve::path(knowledge.triangle, m.variables);
+  tried.root = root_of(knowledge, m, tried.path);
   tried.y = product(knowledge, m, knowledge.y);
+  const int h = tried.height(), ld = static_cast<int>(tried.root.rows());
+  tried.covariance = Rows::Zero(h, solve::round_up(h));
+  tried.shared.resize(0, solve::round_up(h));
+  solve::kernels().add_inner_products(tried.covariance.data(), solve::round_up(h),
+                                      tried.root.data(), ld, h, tried.root.data(), ld, h, ld);
   update(knowledge, tried);
   return tried;
 }
 
 void update(const Knowledge& knowledge, Tried& tried) {
   if (tried.known == knowledge.added.size()) return;
-  tried.shared.conservativeResize(knowledge.added_rows, tried.root.cols());
+  const solve::Kernels& kernel = solve::kernels();
+  const int h = tried.height(), stride = solve::round_up(h);
+  const auto from = static_cast<int>(tried.shared.rows()),
+             to = static_cast<int>(knowledge.added_rows);
+  tried.shared.conservativeResize(to, stride);
+  tried.shared.bottomRows(to - from).setZero();
   for (; tried.known < knowledge.added.size(); ++tried.known) {
     const Knowledge::Added& added = knowledge.added[tried.known];
-    MatrixXd z = inner_product(knowledge, added.of, tried);
-    z.noalias() -= added.of.shared.transpose() * tried.shared.topRows(added.at);
-    added.l.triangularView<Eigen::Lower>().solveInPlace(z);
-    tried.shared.middleRows(added.at, z.rows()) = z;
-    tried.covariance.noalias() -= z.transpose() * z;
-    tried.y.noalias() -= z.transpose() * added.y;
+    add_inner_product(knowledge, added, tried, tried.shared.row(added.at).data(), stride);
   }
+  kernel.solve_lower(knowledge.l.data(), static_cast<int>(knowledge.l.rows()), tried.shared.data(),
+                     stride, from, to, h);
+  const double* const z = tried.shared.row(from).data();
+  kernel.subtract_product(tried.covariance.data(), stride, z, stride, z, stride, h, h, to - from);
+  kernel.subtract_product(tried.y.data(), draws, knowledge.added_y.row(from).data(), draws, z,
+                          stride, draws, h, to - from);
 }
 
 Gain estimated_gain(const Tried& tried) {
-  return gain_of(tried.covariance, tried.y);
+  return gain_of(unit_plus(tried.covariance.leftCols(tried.height())), tried.y);
+}
+
+Gain estimated_loss(const Tried& tried) {
+  const int h = tried.height();
+  const MatrixXd information =
+      unit_plus(-tried.covariance.leftCols(h));  // that the others have of it
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(information, Eigen::EigenvaluesOnly);
+  if (!(spectrum.eigenvalues()(0) > least_left)) return {HUGE_VAL, HUGE_VAL};
+  const Gain gain = gain_of(information, tried.y);
+  return {gain.trace, -gain.log_det};
 }
 
 void add(Knowledge& knowledge, Tried tried) {
-  MatrixXd information = tried.covariance;
-  information.diagonal().array() += 1;
-  const MatrixXd l = Eigen::LLT<MatrixXd>(information).matrixL();
-  Draws y = tried.y;
-  l.triangularView<Eigen::Lower>().solveInPlace(y);
-  const auto height = static_cast<Index>(l.rows());
-  if (tried.shared.rows() == 0) tried.shared.resize(0, height);
-  knowledge.added.push_back({std::move(tried), l, std::move(y), knowledge.added_rows});
-  knowledge.added_rows += height;
+  const Index at = knowledge.added_rows, height = tried.height(), end = at + height;
+  if (knowledge.l.rows() < end) {
+    const Index size = solve::round_up(std::max(end, 2 * at));
+    knowledge.l.conservativeResize(size, size);
+    knowledge.added_y.conservativeResize(size, draws);
+  }
+  const MatrixXd information = unit_plus(tried.covariance.leftCols(height));
+  knowledge.l.block(at, 0, height, at) = tried.shared.leftCols(height).transpose();
+  knowledge.l.block(at, at, height, height) = Eigen::LLT<MatrixXd>(information).matrixL();
+  knowledge.added_y.middleRows(at, height) = tried.y;
+  solve::kernels().solve_lower(&knowledge.l(at, at), static_cast<int>(knowledge.l.rows()),
+                               knowledge.added_y.row(at).data(), draws, 0, height, draws);
+  knowledge.added.push_back({std::move(tried.path), std::move(tried.root), at, height});
+  knowledge.added_rows = end;
 }
 
-std::vector<Settled> settle(Knowledge& knowledge) {
+namespace {
+
+// Of some that were added, side by side in these columns of L'^-1 U (I + C)^-1/2.
+void settle_strip(Knowledge& knowledge, std::span<const Knowledge::Added> some, const Rows& columns,
+                  std::vector<Settled>& result) {
   const Evidence& evidence = knowledge.evidence;
+  const std::size_t first = result.size();
+  for (const Knowledge::Added& added : some) {
+    result.push_back({{0, 0}, 0});
+    for (Index row = added.at; row < added.at + added.height; ++row)
+      result.back().gain.log_det += 2 * std::log(knowledge.l(row, row));
+  }
+  const MatrixXd drift = knowledge.drift.transpose() * columns;
+  Eigen::Index from = 0;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    result[first + k].gain.trace = -drift.middleCols(from, some[k].height).squaredNorm();
+    from += some[k].height;
+  }
+  Eigen::RowVectorXd squares(columns.cols());
+  for (Index j = 0; j < evidence.pattern.variables(); ++j) {
+    squares.setZero();
+    for (int s = 0; s < evidence.pattern.dim[j]; ++s) {
+      if (evidence.position[evidence.step_at[j] + s])
+        squares += columns.row(knowledge.triangle.row(j) + s).cwiseAbs2();
+    }
+    Settled* settled = result.data() + first;
+    Eigen::Index column = 0;
+    for (const Knowledge::Added& added : some) {
+      const double fall = squares.segment(column, added.height).sum();
+      column += added.height;
+      knowledge.variance[j] -= fall;
+      settled->gain.trace += fall;
+      settled->mean_sigma += std::sqrt(std::max(0.0, knowledge.variance[j])) / evidence.poses;
+      ++settled;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Settled> settle(Knowledge& knowledge) {
   std::vector<Settled> result;
-  Rows roots = whitened_roots(knowledge);
+  const PartialRows roots = whitened_roots(knowledge);
   std::size_t k = 0;
   while (k < knowledge.added.size()) {  // as many as fit a strip
     const std::size_t first = k;
     const Index begin = knowledge.added[first].at;
     Index end = begin;
     for (; k < knowledge.added.size() && (k == first || end - begin < strip); ++k)
-      end = knowledge.added[k].at + static_cast<Index>(knowledge.added[k].l.rows());
-    Rows columns = roots.middleCols(begin, end - begin);
+      end = knowledge.added[k].at + knowledge.added[k].height;
+    Rows columns = Rows::Zero(knowledge.triangle.rows(), solve::round_up(end - begin));
+    for (std::size_t row = 0; row < roots.row.size(); ++row)
+      columns.row(roots.row[row]).head(end - begin) =
+          roots.numbers.row(static_cast<Eigen::Index>(row)).segment(begin, end - begin);
     solve::solve_upper(knowledge.triangle, columns);
-    for (std::size_t i = first; i < k; ++i) {
-      const Knowledge::Added& added = knowledge.added[i];
-      Settled settled{{0, 0}, 0};
-      for (Eigen::Index row = 0; row < added.l.rows(); ++row)
-        settled.gain.log_det += 2 * std::log(added.l(row, row));
-      const auto own = columns.middleCols(added.at - begin, added.l.rows());
-      for (Index j = 0; j < evidence.pattern.variables(); ++j) {
-        for (int s = 0; s < evidence.pattern.dim[j]; ++s) {
-          if (!evidence.position[evidence.step_at[j] + s]) continue;
-          const double fall = own.row(knowledge.triangle.row(j) + s).squaredNorm();
-          knowledge.variance[j] -= fall;
-          settled.gain.trace += fall;
-        }
-      }
-      settled.mean_sigma = mean_sigma(knowledge);
-      result.push_back(settled);
-    }
+    settle_strip(knowledge, std::span(knowledge.added).subspan(first, k - first), columns, result);
   }
   return result;
 }
@@ -348,7 +444,16 @@ double mean_sigma(const Knowledge& knowledge) {
 }
 
 double total_variance(const Knowledge& knowledge) {
-  return std::accumulate(knowledge.variance.begin(), knowledge.variance.end(), 0.0);
+  const double sum = std::accumulate(knowledge.variance.begin(), knowledge.variance.end(), 0.0);
+  if (!knowledge.aligned) return sum;
+  const Eigen::Index motions = knowledge.drift.cols();
+  Rows moved = Rows::Zero(knowledge.triangle.rows(), solve::round_up(static_cast<int>(motions)));
+  each_scalar(knowledge, [&](Index row, Index scalar) {
+    if (knowledge.evidence.position[scalar])
+      moved.row(row).head(motions) = knowledge.drift.row(row);
+  });
+  solve::solve_lower(knowledge.triangle, moved);
+  return sum - moved.squaredNorm();
 }
 
 }  // namespace sg::prune

@@ -13,6 +13,12 @@
 // sign vectors, Y = S P' z, (J Y)(J Y)' / k estimates J S P'P S J' (Hutchinson 1990), conditioned alike. A first guess of
 // C, before the root is computed, is (J X)(J X)' / k with X = L'^-1 z.
 //
+// Aligned, positions are judged as after the rigid motion that fits the whole best: P' P gives way to P' (I - D D') P, D an
+// orthonormal basis of what rigid motions do to the positions. The sign vectors lose their part in D.
+//
+// A measurement that is in takes with it, when it goes,
+//     tr[ (I - C)^-1  J S P'P S J' ].
+//
 // What was added tells its exact share when it is settled, all at once: the columns of L'^-1 U (I + C)^-1/2, squared, are
 // by what the variances fell, measurement by measurement.
 #pragma once
@@ -41,18 +47,22 @@ struct Gain {
   double log_det;  // by which that of the information grows
 };
 
-// A measurement in the light of what was added.
+// A measurement in the light of what was added. Where a stride is wanted, columns are padded to whole lanes.
 struct Tried {
-  std::vector<Index> path;     // cliques
-  solve::Rows root;            // U, on the path
-  Eigen::MatrixXd covariance;  // C
-  Draws y;                     // J Y
-  Eigen::MatrixXd shared;      // Z, below each other
-  std::size_t known = 0;       // of what was added: as far as it is conditioned
+  std::vector<Index> path;  // cliques
+  Eigen::MatrixXd
+      root;  // U, on the path: rows of all its cliques, then zeros, a lane less one or more
+  solve::Rows covariance;  // C
+  Draws y;                 // J Y
+  solve::Rows shared;      // Z, below each other
+  std::size_t known = 0;   // of what was added: as far as it is conditioned
+
+  int height() const { return static_cast<int>(y.rows()); }
 };
 
 struct Knowledge {
   const Evidence& evidence;
+  bool aligned;
   boost::random::mt19937 bits;
 
   graph::Pattern pattern;         // of the rows that are in; variables that are not stand still
@@ -60,20 +70,22 @@ struct Knowledge {
   solve::Elimination factor;
   solve::Triangle triangle;
   Draws x, y;                    // in elimination order
+  Eigen::MatrixXd drift;         // likewise; no columns unless aligned
   std::vector<double> variance;  // by variable: of its position; 0 of what is no pose
 
   struct Added {
-    Tried of;
-    Eigen::MatrixXd l;  // L_ii
-    Draws y;            // L_ii^-1 J Y
-    Index at;           // its first row in all that was added
+    std::vector<Index> path;
+    Eigen::MatrixXd root;
+    Index at, height;  // its rows in all that was added
   };
   std::vector<Added> added;  // since the factor
   Index added_rows = 0;
+  Eigen::MatrixXd l;  // of I + C over all that was added, below the diagonal; it may be larger
+  Draws added_y;      // l^-1 J Y; it may be longer
   std::vector<double> work;  // zeros between calls
 };
 
-Knowledge start_knowledge(const Evidence& evidence, std::uint64_t seed);
+Knowledge start_knowledge(const Evidence& evidence, bool aligned, std::uint64_t seed);
 
 // Factors the rows that are in (the gauge's always are), variables that are not standing still, in this order of all
 // variables; draws anew. Returns the variables that are left undetermined, ascending: then nothing else is
@@ -95,6 +107,9 @@ Tried try_measurement(Knowledge& knowledge, const Measurement& measurement);
 void update(const Knowledge& knowledge, Tried& tried);
 // The trace estimated, the log determinant exact.
 Gain estimated_gain(const Tried& tried);
+// By how much both would fall without this measurement, which is one of the factored rows, nothing having been added;
+// infinite where it is needed.
+Gain estimated_loss(const Tried& tried);
 // Adds one that is up to date.
 void add(Knowledge& knowledge, Tried tried);
 
@@ -107,7 +122,7 @@ std::vector<Settled> settle(Knowledge& knowledge);
 
 // Mean standard deviation of a pose's position over all of the graph's poses; constants have none.
 double mean_sigma(const Knowledge& knowledge);
-// The sum of the variances.
+// The sum of the variances of the factored rows, as they were taken; aligned, less what moves the whole.
 double total_variance(const Knowledge& knowledge);
 
 }  // namespace sg::prune

@@ -106,6 +106,20 @@ struct Kernels {
   // of `lane`; what lies below the last row of c is written over.
   void (*negative_product)(double* c, int ldc, const double* a, int lda, const double* b, int ldb,
                            int rows, int columns, int depth);
+  // c -= a b', of the same shapes.
+  void (*subtract_product)(double* c, int ldc, const double* a, int lda, const double* b, int ldb,
+                           int rows, int columns, int depth);
+
+  // Many right-hand sides, by row: `columns` numbers in rows of ldx, a multiple of `lane`; what lies behind the last number
+  // of a row is written over. L is lower triangular, by column, without a dropped pivot.
+  // x := L^-1 x in rows from .. to - 1, where those before are done.
+  void (*solve_lower)(const double* l, int ldl, double* x, int ldx, int from, int to, int columns);
+  // x_f := L11^-T (x_f - L21' x_s), f rows at x and s rows at `above`, of one ldx.
+  void (*solve_upper)(const Front& front, double* x, int ldx, const double* above, int columns);
+
+  // c += a' b, c by row, a and b by column with `rows` rows. Nothing behind the last row is read.
+  void (*add_inner_products)(double* c, int ldc, const double* a, int lda, int a_columns,
+                             const double* b, int ldb, int b_columns, int rows);
 
   // x has ld_l numbers: x_s in its place, -1 for the right-hand side, 0 elsewhere; fills in x_f.
   void (*back_substitute)(const Front& front, double* x);

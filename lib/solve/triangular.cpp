@@ -1,37 +1,37 @@
 #include "lib/solve/triangular.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <numeric>
+#include <cassert>
 
 namespace sg::solve {
 namespace {
 
-using Piece = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-
-Piece l11(const Front& front) {
-  return {front.l, front.f, front.f, Eigen::OuterStride<>(front.ld_l())};
+int stride(const RowsRef& x) {
+  assert(x.outerStride() % lane == 0 && x.outerStride() >= round_up(static_cast<int>(x.cols())));
+  return static_cast<int>(x.outerStride());
 }
 
-Piece l21(const Front& front) {
-  return {front.l + front.f, front.s(), front.f, Eigen::OuterStride<>(front.ld_l())};
+// As many rows as the largest separator has, of a matrix like x.
+Rows separator_like(const Triangle& t, const RowsRef& x) {
+  return {t.most_separator_rows, stride(x)};
 }
 
 void solve_lower(const Triangle& t, Index c, RowsRef& x, Rows& above) {
   const Front front = t.elimination->front(c);
-  auto frontal = x.middleRows(t.first_row[c], front.f);
-  l11(front).triangularView<Eigen::Lower>().solveInPlace(frontal);
+  const auto columns = static_cast<int>(x.cols());
+  double* const frontal = x.row(t.first_row[c]).data();
+  kernels().solve_lower(front.l, front.ld_l(), frontal, stride(x), 0, front.f, columns);
   const auto separator = t.separator_rows[c];
-  if (separator.empty()) return;
-  above.noalias() = l21(front) * frontal;
+  kernels().negative_product(above.data(), stride(x), frontal, stride(x), front.l + front.f,
+                             front.ld_l(), columns, front.s(), front.f);
   for (std::size_t k = 0; k < separator.size(); ++k)
-    x.row(separator[k]) -= above.row(static_cast<Eigen::Index>(k));
+    x.row(separator[k]) += above.row(static_cast<Eigen::Index>(k)).head(columns);
 }
 
 }  // namespace
 
 Triangle triangle(Elimination& e) {
-  Triangle t{&e, std::vector<Index>(e.dim.size()), {0}, {}};
+  Triangle t{&e, std::vector<Index>(e.dim.size()), {0}, {}, 0};
   for (Index c = 0; c < e.tree.cliques(); ++c) {
     for (const Index j : e.tree.frontals[c]) t.clique[j] = c;
     t.first_row.push_back(t.first_row.back() + e.tree.frontal_dim[c]);
@@ -39,6 +39,7 @@ Triangle triangle(Elimination& e) {
       for (int k = 0; k < e.dim[j]; ++k) t.separator_rows.items.push_back(e.floor_at[j] + k);
     }
     t.separator_rows.close();
+    t.most_separator_rows = std::max(t.most_separator_rows, e.tree.separator_dim[c]);
   }
   return t;
 }
@@ -57,28 +58,23 @@ std::vector<Index> path(const Triangle& t, std::span<const Index> variables) {
 }
 
 void solve_lower(const Triangle& t, std::span<const Index> cliques, RowsRef x) {
-  Rows above;
+  Rows above = separator_like(t, x);
   for (const Index c : cliques) solve_lower(t, c, x, above);
 }
 
 void solve_lower(const Triangle& t, RowsRef x) {
-  Rows above;
+  Rows above = separator_like(t, x);
   for (Index c = 0; c < t.elimination->tree.cliques(); ++c) solve_lower(t, c, x, above);
 }
 
 void solve_upper(const Triangle& t, RowsRef x) {
-  Rows above;
+  Rows above = separator_like(t, x);
   for (Index c = t.elimination->tree.cliques() - 1; c >= 0; --c) {
-    const Front front = t.elimination->front(c);
-    auto frontal = x.middleRows(t.first_row[c], front.f);
     const auto separator = t.separator_rows[c];
-    if (!separator.empty()) {
-      above.resize(static_cast<Eigen::Index>(separator.size()), x.cols());
-      for (std::size_t k = 0; k < separator.size(); ++k)
-        above.row(static_cast<Eigen::Index>(k)) = x.row(separator[k]);
-      frontal.noalias() -= l21(front).transpose() * above;
-    }
-    l11(front).transpose().triangularView<Eigen::Upper>().solveInPlace(frontal);
+    for (std::size_t k = 0; k < separator.size(); ++k)
+      above.row(static_cast<Eigen::Index>(k)).head(x.cols()) = x.row(separator[k]);
+    kernels().solve_upper(t.elimination->front(c), x.row(t.first_row[c]).data(), stride(x),
+                          above.data(), static_cast<int>(x.cols()));
   }
 }
 

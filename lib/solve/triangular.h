@@ -1,8 +1,9 @@
 // The factor of an eliminated system as a triangle, A' A = L L', for many right-hand sides, and for
 // sparse ones.
 //
-// Rows of a right-hand side stand in elimination order: those of a clique's frontal variables are
-// consecutive. L x = b with b zero but for some variables is zero but for the cliques on their paths
+// Rows of right-hand sides stand in elimination order: those of a clique's frontal variables are
+// consecutive. From one row to the next are a multiple of `lane` numbers, at least as many as columns; what is
+// between is written over. L x = b with b zero but for some variables is zero but for the cliques on their paths
 // to the root (Gilbert and Peierls, Sparse partial pivoting in time proportional to arithmetic
 // operations, 1988; on a tree: Liu 1990).
 #pragma once
@@ -23,6 +24,7 @@ struct Triangle {
   std::vector<Index> clique;           // n: of every variable
   std::vector<Index> first_row;        // C + 1
   graph::Lists<> separator_rows;       // C
+  int most_separator_rows = 0;         // of a clique
 
   Index row(Index variable) const { return elimination->floor_at[variable]; }
   Index rows() const { return first_row.back(); }

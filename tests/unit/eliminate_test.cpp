@@ -303,6 +303,64 @@ TEST_CASE("kernels: a product, whatever lies behind its last rows", "[eliminate]
   }
 }
 
+TEST_CASE("kernels: solves of many right-hand sides by row, and products of columns",
+          "[eliminate]") {
+  Random random(5);
+  const auto any = [&](int rows, int columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(
+        rows, columns, [&](Eigen::Index, Eigen::Index) { return uniform(random, -1, 1); }));
+  };
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
+    INFO(kernel->name);
+    for (int trial = 0; trial < 60; ++trial) {
+      const int f = draw(random, 1, 30), n = f + 1 + draw(random, 0, 30);
+      const int columns = draw(random, 1, 70), ldx = sg::solve::round_up(columns);
+      INFO("f " << f << ", n " << n << ", columns " << columns);
+      DenseFront dense(random, f, n - f - 1);
+      const sg::solve::Run all[] = {{0, 0, n}};
+      kernel->clear(dense.front);
+      kernel->add(dense.front, dense.full.data(), n, all, 1);
+      const std::vector<double> floor(f, 1e-9);
+      REQUIRE(kernel->factorize(dense.front, floor.data()) == 0);
+      Eigen::MatrixXd l11 = Eigen::MatrixXd::Zero(f, f), l21(n - 1 - f, f);
+      for (int j = 0; j < f; ++j) {
+        for (int i = j; i < n - 1; ++i) (i < f ? l11(i, j) : l21(i - f, j)) = dense.at(i, j);
+      }
+      // By row: a matrix by column of as many rows as there are right-hand sides.
+      const Eigen::MatrixXd given = any(ldx, f), above = any(ldx, n - 1 - f);
+      const auto sides = [&](const Eigen::MatrixXd& m) {
+        return Eigen::MatrixXd(m.topRows(columns).transpose());
+      };
+      Eigen::MatrixXd x = given;
+      const int half = draw(random, 0, f);
+      kernel->solve_lower(dense.front.l, dense.front.ld_l(), x.data(), ldx, 0, half, columns);
+      kernel->solve_lower(dense.front.l, dense.front.ld_l(), x.data(), ldx, half, f, columns);
+      CHECK((l11 * sides(x) - sides(given)).norm() < 1e-9 * (1 + sides(x).norm()));
+      x = given;
+      kernel->solve_upper(dense.front, x.data(), ldx, above.data(), columns);
+      CHECK((l11.transpose() * sides(x) + l21.transpose() * sides(above) - sides(given)).norm() <
+            1e-9 * (1 + sides(x).norm() + sides(above).norm()));
+
+      const int rows = draw(random, 1, 50), depth = draw(random, 1, 9);
+      const Eigen::MatrixXd a = any(ldx, depth), b = any(sg::solve::round_up(rows), depth);
+      Eigen::MatrixXd c = any(ldx, rows);
+      const Eigen::MatrixXd less =
+          c.topRows(columns) - a.topRows(columns) * b.topRows(rows).transpose();
+      kernel->subtract_product(c.data(), ldx, a.data(), ldx, b.data(), sg::solve::round_up(rows),
+                               columns, rows, depth);
+      CHECK((c.topRows(columns) - less).norm() < 1e-12 * (1 + less.norm()));
+
+      const int left = draw(random, 1, 9), right = draw(random, 1, 9);
+      const Eigen::MatrixXd u = any(rows, left), v = any(rows + 2, right);
+      Eigen::MatrixXd sums = any(right + 1, left);  // by row
+      const Eigen::MatrixXd more = sums.topRows(right) + v.topRows(rows).transpose() * u;
+      kernel->add_inner_products(sums.data(), right + 1, u.data(), rows, left, v.data(), rows + 2,
+                                 right, rows);
+      CHECK((sums.topRows(right) - more).norm() < 1e-12 * (1 + more.norm()));
+    }
+  }
+}
+
 TEST_CASE("kernels: Gram matrix and scattered sum, in either order", "[eliminate]") {
   Random random(2);
   for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {

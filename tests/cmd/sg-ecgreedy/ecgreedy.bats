@@ -54,6 +54,25 @@ moves() { sg-ecgreedy --trace --no-header "$@"; }
   awk "BEGIN {exit !($sigma <= 1.2 * $whole && $sigma > 1.1 * $whole)}"
 }
 
+@test "at a budget of EC moves are exchanged" {
+  sg-gen manhattan -n 200 --seed 2 | sg-solve -o graph.g2o
+  moves --ec 1e5 -f kind,added,gain,sigma graph.g2o -o made.g2o >table
+  [ "$(grep -c ^drop table)" -ge 1 ]
+  [ "$(awk '/^drop/ && $3 > 0' table | wc -l)" -eq 0 ]
+  [ "$(sg-ec -m wmf --no-header -f ec made.g2o)" -le 100000 ]
+  near "$(tail -1 table | cut -f 4)" "$(sg-score --no-header -f sigma_mean made.g2o)"
+  moves -p 1 -f kind,ec,sigma graph.g2o | awk '$1 != "drop" && $2 <= 100000 {s = $3} END {print s}' >greedy
+  awk "BEGIN {exit !($(tail -1 table | cut -f 4) < $(cat greedy))}"
+}
+
+@test "aligned: the whole may turn about its first pose" {
+  sg-gen manhattan -n 200 --seed 2 | sg-solve -o graph.g2o
+  sg-ecgreedy -k 20 --no-free --gain aligned graph.g2o -o aligned.g2o
+  sg-ecgreedy -k 20 --no-free graph.g2o -o trace.g2o
+  aligned=$(sg-score --no-header -f sigma_mean aligned.g2o) trace=$(sg-score --no-header -f sigma_mean trace.g2o)
+  awk "BEGIN {exit !($trace < $aligned)}"
+}
+
 @test "trees: any tag, and no sigma" {
   sed 's/EDGE_SE2_XY/SEEN/; s/VERTEX_XY/SPOT/' walk.g2o >odd.g2o
   sg-ecgreedy -k 3 --gain trees --vertex SPOT:2:landmark --edge SEEN:2 odd.g2o -o out.g2o
