@@ -26,6 +26,7 @@ struct Options {
   std::optional<double> ec, ec_part, sigma, sigma_part;
   std::vector<double> at;
   std::string gain = "trace";
+  bool exchange = false;
   bool no_free = false;
   bool trace = false;
 };
@@ -88,6 +89,7 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_option("--gain", options.gain, "What counts: trace (default), aligned, logdet, trees")
       ->option_text("KIND")
       ->check(cmd::one_of({"trace", "aligned", "logdet", "trees"}));
+  app.add_flag("--exchange", options.exchange, "Then exchange what tells least (slower)");
   app.add_flag("--no-free", options.no_free, "Leave out what would cost no EC as well");
   app.add_option("-m,--method", options.method.names,
                  "The ordering that EC is counted in (default: wmf)")
@@ -117,6 +119,8 @@ void check_call(const cmd::Command& command, const Options& options) {
                     {"-k", "so many"},
                     {"--like", "as many as FILE has"}},
                    "how many candidates stay?");
+  if (!options.ec && !options.ec_part && options.at.empty())
+    cmd::refuse(command.app, {"--exchange"}, "without --ec, --ec-part or --at");
   cmd::check(options.method);
   cmd::check_form(command.app);
   if (options.gain == "trees")
@@ -206,7 +210,8 @@ std::vector<prune::Move> moves_at(const cmd::Command& command, const Options& op
                                   const prune::EcGreedyOptions& greedy) {
   if (greedy.ec) moves = within(command, subject, moves, greedy);
   std::vector<prune::Move> made(moves.begin(), moves.end());
-  if (greedy.ec) made = prune::exchanged(subject.choice, subject.evidence, greedy, std::move(made));
+  if (options.exchange)
+    made = prune::exchanged(subject.choice, subject.evidence, greedy, std::move(made));
   if (options.no_free) return made;
   return ecgreedy::with_free(subject.choice, subject.evidence, made, greedy);
 }

@@ -8,7 +8,6 @@
 #include "lib/factor/initialize.h"
 #include "lib/prune/covisible.h"
 #include "lib/prune/decimate.h"
-#include "lib/prune/exchange.h"
 #include "lib/prune/sample.h"
 #include "lib/prune/tgreedy.h"
 #include "lib/score/covariance.h"
@@ -115,9 +114,7 @@ std::optional<Graph> by_accuracy(const Graph& graph, const Pruning& pruning, dou
     if (moves.empty()) throw score::singular_error(problem, values);
     const auto within =
         std::span(moves).first(prune::moves_within(choice, moves, *greedy.ec, greedy));
-    const std::vector<prune::Move> made =
-        prune::exchanged(choice, evidence, greedy, {within.begin(), within.end()});
-    return Kept(prune::kept_by(candidates, ecgreedy::with_free(choice, evidence, made, greedy)));
+    return Kept(prune::kept_by(candidates, ecgreedy::with_free(choice, evidence, within, greedy)));
   });
 }
 

@@ -54,15 +54,20 @@ moves() { sg-ecgreedy --trace --no-header "$@"; }
   awk "BEGIN {exit !($sigma <= 1.2 * $whole && $sigma > 1.1 * $whole)}"
 }
 
-@test "at a budget of EC moves are exchanged" {
+@test "--exchange: at a budget of EC moves are exchanged" {
   sg-gen manhattan -n 200 --seed 2 | sg-solve -o graph.g2o
-  moves --ec 1e5 -f kind,added,gain,sigma graph.g2o -o made.g2o >table
+  moves --ec 1e5 --exchange -f kind,added,gain,sigma graph.g2o -o made.g2o >table
   [ "$(grep -c ^drop table)" -ge 1 ]
   [ "$(awk '/^drop/ && $3 > 0' table | wc -l)" -eq 0 ]
   [ "$(sg-ec -m wmf --no-header -f ec made.g2o)" -le 100000 ]
   near "$(tail -1 table | cut -f 4)" "$(sg-score --no-header -f sigma_mean made.g2o)"
   moves -p 1 -f kind,ec,sigma graph.g2o | awk '$1 != "drop" && $2 <= 100000 {s = $3} END {print s}' >greedy
   awk "BEGIN {exit !($(tail -1 table | cut -f 4) < $(cat greedy))}"
+}
+
+@test "--exchange wants a budget of EC" {
+  fails 2 "sg-ecgreedy: --exchange has no effect without --ec, --ec-part or --at (see sg-ecgreedy --help)" \
+    sg-ecgreedy -k 4 --exchange walk.g2o
 }
 
 @test "aligned: the whole may turn about its first pose" {
