@@ -14,7 +14,13 @@ Upstream-Name: sgtools
 Files: *
 Copyright: 2026 the sgtools authors
 License: BSD-2-clause
- ${license}")
+ ${license}
+Files: sg-report
+Comment: contains D3 (https://d3js.org), of Debian's libjs-d3; its licence stands in every page that sg-report writes.
+Copyright: 2013 Michael Bostock and others
+License: BSD-3-clause
+ On Debian systems, see /usr/share/doc/libjs-d3/copyright.
+")
   file(REMOVE ${doc}/LICENSE)
   file(WRITE ${doc}/changelog "sgtools (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 
