@@ -42,7 +42,8 @@ if(SGTOOLS_PYTHON)
   math(EXPR next "${Python_VERSION_MINOR} + 1")  # the module is of one minor version
   set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_DEPENDS
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
-  set(CPACK_COMPONENT_PYTHON3-SGTOOLS_DESCRIPTION "The library of sgtools in Python, with numpy in and out: read SLAM graphs or build
-them from arrays, order, prune, solve and score them.")
+  set(CPACK_COMPONENT_PYTHON3-SGTOOLS_DESCRIPTION "The library of sgtools in Python, with numpy in and out:
+graphs from files or from arrays; their orders, elimination complexity and Bayes
+tree; pruning, solving, scoring and covariances.")
 endif()
 include(CPack)
