@@ -1,5 +1,6 @@
 """pip install .: the module is built by CMake, as everything else is; the libraries that it wants are the README's."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -21,7 +22,7 @@ class CMakeBuild(build_ext):
             ],
             check=True,
         )
-        subprocess.run(["cmake", "--build", build, "--parallel", "--target", "sgtools_python"], check=True)
+        subprocess.run(["cmake", "--build", build, "--parallel", str(os.cpu_count()), "--target", "sgtools_python"], check=True)
         built = next((build / "python" / "sgtools").glob("_core.*.so"))
         self.copy_file(str(built), self.get_ext_fullpath(extension.name))
 
