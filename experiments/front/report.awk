@@ -2,9 +2,12 @@
 # then what ecgreedy saves beside each policy, then all by graph.
 BEGIN { FS = "\t" }
 NR == 1 { next }
-{ row[++n] = $0; graph[n] = $1; way[n] = $2; ec[n] = $6; value["sigma", n] = $7; value["ATE", n] = $8 }
+$2 == "full" { whole[$1] = $4 }
+{ row[++n] = $0; graph[n] = $1; way[n] = $2; edges[n] = $4; ec[n] = $6; value["sigma", n] = $7; value["ATE", n] = $8 }
 function number(x, digits) { return x == "" || x == "-" ? "-" : sprintf("%." digits "g", x) }
 function ours(i) { return way[i] ~ /ecgreedy/ }
+# Of a policy that left nothing out there is nothing to say.
+function is_whole(i) { return edges[i] == whole[graph[i]] }
 function scored(i, what) { return ec[i] != "-" && value[what, i] != "-" && value[what, i] != "" }
 # Of ecgreedy's ways the one that has least EC and no more error than i, within a hundredth.
 function beside(i, what,   j, best) {
@@ -14,7 +17,7 @@ function beside(i, what,   j, best) {
 }
 function compare(what, losses,   i, j, lines) {
   for (i = 1; i <= n; ++i) {
-    if (ours(i) || way[i] == "full" || !scored(i, what)) continue
+    if (ours(i) || is_whole(i) || !scored(i, what)) continue
     j = beside(i, what)
     if (!j && losses) { printf "- %s: %s (EC %s, %s %s): ecgreedy does not get there.\n", graph[i], way[i], number(ec[i], 3), what, number(value[what, i], 3); ++lines }
     if (j && losses && ec[j] > 1.001 * ec[i]) { printf "- %s: %s (EC %s, %s %s): %s takes %.2f times the EC.\n", graph[i], way[i], number(ec[i], 3), what, number(value[what, i], 3), way[j], ec[j] / ec[i]; ++lines }
