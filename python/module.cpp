@@ -10,6 +10,7 @@ void translate_errors(py::module_& module) {
   static py::exception<text::Error> input(module, "InputError", PyExc_ValueError);
   static py::exception<text::Error> computation(module, "ComputationError", PyExc_RuntimeError);
   for (auto* const kind : {&input, &computation}) kind->attr("__module__") = "sgtools";
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 wants it by value
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

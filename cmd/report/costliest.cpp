@@ -53,6 +53,7 @@ Sheet costliest_cliques(const Study& study, const cmd::Method& method) {
   const auto columns = some(bayes::columns, {"cost", "clique", "depth", "d_f", "d_s", "frontal"});
   bayes::NamedTree named = bayes::named_tree(study.methods, study.graph, method);
   std::vector<bayes::Row> rows;
+  rows.reserve(named.tree.cliques());
   for (Index c = 0; c < named.tree.cliques(); ++c) rows.push_back({named, c});
   return costliest(
       columns, std::move(rows),

@@ -30,6 +30,7 @@ std::vector<cmd::Column<Row>> some(const std::vector<cmd::Column<Row>>& columns,
 template <class Row>
 std::vector<std::string> cells(const std::vector<cmd::Column<Row>>& columns, Row& row) {
   std::vector<std::string> result;
+  result.reserve(columns.size());
   for (const cmd::Column<Row>& column : columns) result.push_back(cmd::text(column.cell(row)));
   return result;
 }
