@@ -121,3 +121,9 @@ chain() {
   chi2=$(sg-isam2 -f chi2 --no-header --every 10000 "$SGTOOLS_DATA/intel.g2o" | tail -n 1)
   awk -v chi2="$chi2" 'BEGIN { exit !(chi2 < 45.004696 * 1.01 && chi2 >= 45.0046) }'
 }
+
+@test "iterations that leave the range of their measurements diverge, which is not being undetermined" {
+  sg-gen sine -n 6 --sensor disparity --noise-guess 100 > wild.g2o
+  fails 3 "sg-isam2: step 3: the iterations diverge: the estimate has left the range in which its measurements determine it; \
+start elsewhere (--init), or solve it in batch (sg-solve)" sg-isam2 --init file wild.g2o
+}
