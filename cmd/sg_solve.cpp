@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <optional>
 
 #include "cmd/common/command.h"
@@ -128,20 +127,14 @@ void print_iteration(const solve::Iteration& iteration) {
   cmd::print_error(line + "\n");
 }
 
-std::string rounded(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", number);
-  return text;
-}
-
 // How it went, in a line.
 void tell(const cmd::Command& command, const solve::BatchResult& result, double seconds) {
   if (command.quiet || !(command.verbose || ::isatty(STDERR_FILENO) != 0)) return;
   cmd::say((result.converged ? "converged after " : "not converged after ") +
            std::to_string(result.iterations) +
-           (result.iterations == 1 ? " iteration, " : " iterations, ") + rounded(seconds) +
-           " s: chi-square from " + rounded(result.initial_chi2) + " to " + rounded(result.chi2) +
-           (result.by_qr ? ", by QR" : ""));
+           (result.iterations == 1 ? " iteration, " : " iterations, ") + cmd::rounded(seconds, 6) +
+           " s: chi-square from " + cmd::rounded(result.initial_chi2, 6) + " to " +
+           cmd::rounded(result.chi2, 6) + (result.by_qr ? ", by QR" : ""));
 }
 
 // Without an -i of the user's, iterations that do not converge are an error: what they reach is of no use.
@@ -205,8 +198,8 @@ std::vector<solve::Candidate> candidates(const Options& options, const factor::P
 void tell_starts(const std::vector<solve::Candidate>& starts) {
   std::string line = "starts by chi-square:";
   for (const solve::Candidate& start : starts)
-    line +=
-        (&start == &starts[0] ? " " : ", ") + std::string(start.name) + ' ' + rounded(start.chi2);
+    line += (&start == &starts[0] ? " " : ", ") + std::string(start.name) + ' ' +
+            cmd::rounded(start.chi2, 6);
   cmd::say(line);
 }
 

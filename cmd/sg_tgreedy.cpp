@@ -108,12 +108,9 @@ void run(const cmd::Command& command, const Options& options) {
   const auto& [graph, poses, kind, candidates] = from;
   const auto count = cmd::kept_count(options.amount, from, options.pruning.input.options);
   const auto accepted = chosen(from, count, trees::tree_weights(options.weights).value(), online);
-  prune::Removal removal = prune::nothing_removed(graph);
-  for (const Index e : candidates) removal.edge[e] = true;
-  for (const prune::Accepted& step : accepted) removal.edge[step.edge] = false;
+  const std::vector<bool> stays = prune::kept_by(candidates, accepted);
+  prune::Removal removal = prune::removal_of_rest(graph, candidates, stays);
   warn_of_parts(command, graph, poses, removal);
-  std::vector<bool> stays;
-  for (const Index e : candidates) stays.push_back(!removal.edge[e]);
   cmd::warn_if_nothing_goes(command, from, stays, cmd::asks_to_prune(options.amount));
   if (options.trace) print_trace(options, graph, accepted);
   if (options.trace && options.pruning.output.path.empty()) return;

@@ -48,7 +48,6 @@ py::array_t<Id> ids_of(const Graph& graph, std::span<const Index> vertices);
 // A whole number of any size.
 py::object whole(elim::Wide value);
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Ids = py::array_t<Id, py::array::c_style | py::array::forcecast>;
 
 // What a call says of the order: a method's name, or the ids of all variables, the first to be eliminated first.

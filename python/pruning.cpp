@@ -72,11 +72,7 @@ SharedGraph tgreedy(const Graph& graph, std::size_t keep, const std::string& wei
   const auto weigh = trees::tree_weights(weights);
   if (!weigh) throw text::usage_error("weights: '" + weights + "' are none (see sg-tgreedy(1))");
   return pruned(graph, kind, min_obs, [&](const Subject& from) {
-    std::vector<bool> edge(graph.edges(), false), kept;
-    for (const auto& accepted : prune::tgreedy(graph, from.candidates, keep, *weigh))
-      edge[accepted.edge] = true;
-    for (const Index e : from.candidates) kept.push_back(edge[e]);
-    return kept;
+    return prune::kept_by(from.candidates, prune::tgreedy(graph, from.candidates, keep, *weigh));
   });
 }
 

@@ -72,7 +72,7 @@ bool asks_to_prune(const Amount& amount) {
 std::size_t kept_count(const Amount& amount, const Prunable& prunable,
                        const formats::ReadOptions& options) {
   const std::size_t candidates = prunable.candidates.size();
-  if (amount.rate) return (candidates + *amount.rate / 2) / *amount.rate;
+  if (amount.rate) return prune::one_in(*amount.rate, candidates);
   if (amount.fraction)
     return static_cast<std::size_t>(
         std::llround(*amount.fraction * static_cast<double>(candidates)));

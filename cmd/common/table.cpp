@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,12 @@ std::string text_of_id(std::int64_t id) {
 }
 
 }  // namespace
+
+std::string rounded(double number, int digits) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", digits, number);
+  return text.data();
+}
 
 std::string text(const Cell& cell) {
   struct Printer {
@@ -90,14 +97,11 @@ std::string json_of_cell(const Cell& cell) {
 
 // What a row of a table has. A tab or the end of a line in a word (a file's name may have them) would be one of the
 // table's. For eyes, numbers that are not whole have six digits.
-std::string printed(const Cell& cell, bool rounded) {
+std::string printed(const Cell& cell, bool for_eyes) {
   if (const auto* word = std::get_if<std::string>(&cell.value))
     return text::escaped(*word, "\t\n\r\\");
   const auto* number = std::get_if<double>(&cell.value);
-  if (!number || !rounded) return text(cell);
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.6g", *number);
-  return digits;
+  return number && for_eyes ? rounded(*number, 6) : text(cell);
 }
 
 bool is_number(const Cell& cell) {

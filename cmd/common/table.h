@@ -49,6 +49,8 @@ struct Cell {
 };
 
 std::string text(const Cell& cell);
+// For eyes: so many significant digits, trailing zeros left out.
+std::string rounded(double number, int digits);
 
 template <class Row>
 struct Column {

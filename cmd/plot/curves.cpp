@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <optional>
 
+#include "cmd/common/table.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/words.h"
 #include "lib/text/error.h"
@@ -48,15 +48,13 @@ std::optional<double> number(const std::string& cell) {
 std::vector<Cells> rows_of(std::string_view text, const std::string& file) {
   std::vector<Cells> rows;
   std::size_t line = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = std::min(text.find('\n', at), text.size());
+  while (!text.empty()) {
     ++line;
-    rows.push_back(cells_of(text.substr(at, end - at)));
+    rows.push_back(cells_of(text::next_line(text)));
     if (rows.back().size() != rows.front().size())
       throw text::input_error(file, line,
                               std::to_string(rows.back().size()) + " cells, and the header has " +
                                   std::to_string(rows.front().size()));
-    at = end + 1;
   }
   return rows;
 }
@@ -101,12 +99,6 @@ std::vector<double> ticks(const Axis& axis) {
   return result;
 }
 
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
 double width_of(cairo_t* page, const std::string& words) {
   cairo_text_extents_t extents;
   cairo_text_extents(page, words.c_str(), &extents);
@@ -130,11 +122,11 @@ void draw_axes(cairo_t* page, const PageSize& size, const Axis& x, const Axis& y
   };
   for (const double tick : ticks(x)) {
     line(x(tick), y.from, x(tick), y.to);
-    words(x(tick), y.from + 14, 0.5, short_number(tick));
+    words(x(tick), y.from + 14, 0.5, cmd::rounded(tick, 6));
   }
   for (const double tick : ticks(y)) {
     line(x.from, y(tick), x.to, y(tick));
-    words(x.from - 5, y(tick) + 3, 1, short_number(tick));
+    words(x.from - 5, y(tick) + 3, 1, cmd::rounded(tick, 6));
   }
   words(x.to, size.height - 8, 1, name);
 }

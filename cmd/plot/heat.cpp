@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
+#include "cmd/common/table.h"
 #include "lib/elim/row_price.h"
 
 namespace sg::plot {
 namespace {
 
 constexpr double margin = 24;
-
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
 
 // Right-aligned at x. Returns where the words begin.
 double show_left_of(cairo_t* page, double x, double y, const std::string& words) {
@@ -81,13 +75,13 @@ void draw_cost_legend(cairo_t* page, const PageSize& size, const Costs& costs) {
   set_color(page, {0, 0, 0});
   cairo_set_font_size(page, 10);
   cairo_move_to(page, margin, 2 * margin / 3);
-  cairo_show_text(page, ("EC " + short_number(costs.total) + " (" + costs.order +
+  cairo_show_text(page, ("EC " + cmd::rounded(costs.total, 3) + " (" + costs.order +
                          "), half of it in " + std::to_string(half(costs)) + " of " +
                          std::to_string(costs.ascending.size()) + " variables")
                             .c_str());
   const double percent = costs.total > 0 ? 100 * costs.largest / costs.total : 0;
   const double from =
-      show_left_of(page, size.width - margin, y + 3, short_number(percent) + " %") - length - 4;
+      show_left_of(page, size.width - margin, y + 3, cmd::rounded(percent, 3) + " %") - length - 4;
   show_left_of(page, from - 4, y + 3, "share of EC  0");
   for (int i = 0; i < steps; ++i) {
     set_color(page, heat(static_cast<double>(i) / (steps - 1)));

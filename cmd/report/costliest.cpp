@@ -30,11 +30,6 @@ Sheet costliest(const std::vector<cmd::Column<Row>>& columns, std::vector<Row> r
   return result;
 }
 
-ec::Subject subject(const Study& study, const cmd::Method& method) {
-  return {study.methods, study.graph.file, {},     study.graph.vertices(), study.graph.edges(),
-          study.graph,   study.variables,  &method};
-}
-
 }  // namespace
 
 Sheet costliest_variables(const Study& study, const cmd::Method& method) {

@@ -75,12 +75,11 @@ std::vector<Ordered> orderings(Study& study, const Deadline& deadline) {
     const auto begin = std::chrono::steady_clock::now();
     graph::Order order = cmd::order_by(method, study.methods, study.graph, study.variables);
     const double seconds = cmd::seconds_since(begin);
-    const ec::Subject subject{
-        study.methods, study.graph.file, {},     study.graph.vertices(), study.graph.edges(),
-        study.graph,   study.variables,  &method};
-    ec::ScoreRow row{subject, elim::symbolic(study.variables.pattern, order)};
-    const elim::Wide ec = row.score().ec;
-    result.push_back({method, std::move(order), seconds, ec, cells(score_columns(), row), {}});
+    const ec::Subject of = subject(study, method);
+    ec::ScoreRow row{of, elim::symbolic(study.variables.pattern, order)};
+    const elim::Score& score = row.score();
+    result.push_back(
+        {method, std::move(order), seconds, score.ec, score.nnz, cells(score_columns(), row), {}});
   }
   const std::unique_ptr<Timer> system = timer(study.graph, study.notes);
   for (Ordered& one : result) {
@@ -109,9 +108,7 @@ Sheet sheet(const Study& study, const std::vector<Ordered>& orderings) {
     result.columns.push_back(std::move(heading));
   for (const Ordered& one : orderings) {
     std::vector<std::string> row = one.score;
-    const elim::Wide bytes =
-        8 * elim::column_score(elim::symbolic(study.variables.pattern, one.order)).nnz;
-    row.push_back(elim::to_string(bytes));
+    row.push_back(elim::to_string(8 * one.nnz));
     row.push_back(cmd::text(one.order_s));
     row.insert(row.end(), one.timing.begin(), one.timing.end());
     row.resize(result.columns.size());

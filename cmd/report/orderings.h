@@ -15,7 +15,7 @@ struct Ordered {
   cmd::Method method;
   graph::Order order;
   double order_s;
-  elim::Wide ec;
+  elim::Wide ec, nnz;
   std::vector<std::string> score;   // cells of sg-ec
   std::vector<std::string> timing;  // cells of sg-solve --time; of what was not timed, none
 };

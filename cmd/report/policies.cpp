@@ -41,10 +41,6 @@ std::optional<Graph> with_kept(const Graph& graph, const Pruning& pruning, const
       pruning.reading);
 }
 
-std::size_t one_in(Index rate, std::size_t candidates) {
-  return (candidates + rate / 2) / rate;
-}
-
 std::optional<Graph> keyframes(const Graph& graph, const Pruning& pruning, const auto& choose) {
   const graph::PoseIndex poses = graph::pose_index(graph);
   const graph::Lists<> odometry = prune::odometry_steps(graph, poses);
@@ -75,7 +71,7 @@ std::optional<Graph> decimated(const Graph& graph, const Pruning& pruning) {
 std::optional<Graph> at_random(const Graph& graph, const Pruning& pruning) {
   return with_kept(graph, pruning, [&](const auto& /*poses*/, const auto& candidates) {
     return std::optional(
-        prune::sample(candidates.size(), one_in(pruning.rate, candidates.size()), 1));
+        prune::sample(candidates.size(), prune::one_in(pruning.rate, candidates.size()), 1));
   });
 }
 
@@ -83,13 +79,10 @@ std::optional<Graph> by_trees(const Graph& graph, const Pruning& pruning) {
   return with_kept(graph, pruning, [&](const auto& /*poses*/, const auto& candidates) {
     bool whole = true;
     const auto accepted =
-        prune::tgreedy(graph, candidates, one_in(pruning.rate, candidates.size()),
+        prune::tgreedy(graph, candidates, prune::one_in(pruning.rate, candidates.size()),
                        trees::Weights::unit, [&](std::size_t) { return whole = pruning.go_on(); });
     if (!whole) return std::optional<std::vector<bool>>();
-    std::vector<bool> in(graph.edges(), false), kept;
-    for (const prune::Accepted& one : accepted) in[one.edge] = true;
-    for (const Index e : candidates) kept.push_back(in[e]);
-    return std::optional(kept);
+    return std::optional(prune::kept_by(candidates, accepted));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cmd/common/method.h"
+#include "cmd/ec/columns.h"
 #include "cmd/report/calls.h"
 #include "cmd/report/time.h"
 #include "lib/graph/pattern.h"
@@ -21,6 +22,12 @@ struct Study {
   std::vector<std::string> notes = {};  // what is missing on the page, and why
   graph::GraphPattern variables = graph::graph_pattern(graph);
 };
+
+// The whole graph under a method, for the columns of sg-ec.
+inline ec::Subject subject(const Study& study, const cmd::Method& method) {
+  return {study.methods, study.graph.file, {},     study.graph.vertices(), study.graph.edges(),
+          study.graph,   study.variables,  &method};
+}
 
 constexpr int timed_runs = 5;  // sg-solve --time 5
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <tuple>
 
+#include "cmd/common/table.h"
 #include "lib/text/error.h"
 #include "lib/text/words.h"
 
@@ -21,12 +21,6 @@ struct Named {
 };
 constexpr std::array aims{Named{Aim::faster, "faster"}, Named{Aim::ate, "ate"},
                           Named{Aim::sigma_part, "sigma-part"}};
-
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
 
 double loss(const Variant& variant, const Variant& whole) {
   return std::max(1.0, sigma_part(variant, whole).value_or(&variant == &whole ? 1 : none));
@@ -60,16 +54,16 @@ std::string recipe(const Variant& variant, const Variant& whole) {
 }
 
 std::string consequence(const Variant& variant, const Variant& whole) {
-  std::string text = short_number(times_as_fast(variant, whole)) + " times as fast";
+  std::string text = cmd::rounded(times_as_fast(variant, whole), 3) + " times as fast";
   text += variant.median_s && whole.median_s
-              ? " (" + short_number(1e3 * *variant.median_s) + " ms instead of " +
-                    short_number(1e3 * *whole.median_s) + " an elimination, "
+              ? " (" + cmd::rounded(1e3 * *variant.median_s, 3) + " ms instead of " +
+                    cmd::rounded(1e3 * *whole.median_s, 3) + " an elimination, "
               : " by EC (";
   text += "EC " + elim::to_string(variant.ec) + " instead of " + elim::to_string(whole.ec) + ")";
   if (variant.policy == "full") return text + "; nothing is lost";
   if (const auto part = sigma_part(variant, whole))
-    text += "; mean sigma " + short_number(*part) + " times that of the whole graph";
-  if (variant.ate) text += "; ATE " + short_number(*variant.ate);
+    text += "; mean sigma " + cmd::rounded(*part, 3) + " times that of the whole graph";
+  if (variant.ate) text += "; ATE " + cmd::rounded(*variant.ate, 3);
   return text;
 }
 

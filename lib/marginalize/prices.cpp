@@ -46,7 +46,6 @@ Prices prices(const graph::GraphPattern& left, const graph::Order& order,
   for (std::size_t v = 0; v < removed.size(); ++v) {
     if (removed[v]) result.position[v] = going;
   }
-
   return result;
 }
 

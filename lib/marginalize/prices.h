@@ -3,8 +3,8 @@
 // A measurement between two vertices costs the increase of EC that it makes in a fixed order of what is left
 // (lib/elim/filled_graph.h), and what a factor costs beside elimination. It is worth what the pairs so far are wrong
 // about it: the divergence of the pair's own Gaussian from theirs, in nats. So there is one exchange rate, nats a unit
-// of EC, and in every blanket the pairs are taken by worth a cost as long as they are above it, and there are no more of them than the tree has: the sum of divergence
-// and rate times EC falls with each. What stands within the filled graph comes for next to nothing.
+// of EC, and in every blanket the pairs are taken by worth a cost as long as they are above it, and there are no more of
+// them than the tree has: the sum of divergence and rate times EC falls with each. What stands within the filled graph comes for next to nothing.
 #pragma once
 
 #include <vector>

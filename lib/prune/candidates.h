@@ -23,6 +23,11 @@ Candidates candidates_named(std::string_view name, const Graph& graph);
 std::vector<Index> candidate_edges(const Graph& graph, const graph::PoseIndex& poses,
                                    Candidates kind);
 
+// How many stay of so many candidates where one in `rate` does: to the nearest.
+inline std::size_t one_in(Index rate, std::size_t candidates) {
+  return (candidates + rate / 2) / rate;
+}
+
 // What a policy removes from a graph.
 struct Removal {
   std::vector<bool> vertex;  // n

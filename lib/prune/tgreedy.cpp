@@ -189,6 +189,16 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex&
   return std::move(greedy.accepted);
 }
 
+std::vector<bool> kept_by(const std::vector<Index>& candidates,
+                          std::span<const Accepted> accepted) {
+  std::vector<Index> edges;
+  for (const Accepted& step : accepted) edges.push_back(step.edge);
+  std::ranges::sort(edges);
+  std::vector<bool> kept;
+  for (const Index e : candidates) kept.push_back(std::ranges::binary_search(edges, e));
+  return kept;
+}
+
 Index pose_parts(const Graph& graph, const graph::PoseIndex& poses,
                  const std::vector<bool>& edge_removed) {
   const graph::Components parts = graph::components(graph, edge_removed);

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "lib/graph/graph.h"
@@ -39,6 +40,9 @@ using GoOn = std::function<bool(std::size_t accepted)>;
 // an input Error for a candidate of other than two vertices.
 std::vector<Accepted> tgreedy(const Graph& graph, const std::vector<Index>& candidates,
                               std::size_t count, trees::Weights weights, const GoOn& go_on = {});
+
+// Of every candidate, whether it is among the accepted.
+std::vector<bool> kept_by(const std::vector<Index>& candidates, std::span<const Accepted> accepted);
 
 // The choice that a robot could have made: after every `batch` steps of the replay it spends that
 // batch's share of `count` on the candidates seen so far, in the graph seen so far. After c of the

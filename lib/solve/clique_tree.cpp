@@ -32,10 +32,7 @@ void merge_into_parents(const elim::BayesTree& tree, std::vector<Index>& target)
   std::vector<double> f(tree.frontal_dim.begin(), tree.frontal_dim.end());
   std::vector<double> n(tree.total_dim.begin(), tree.total_dim.end());
   for (double& rows : n) ++rows;  // the right-hand side
-  std::vector<bool> leaf(cliques, true);
-  for (Index p : tree.parent) {
-    if (p >= 0) leaf[p] = false;
-  }
+  const std::vector<bool> leaf = childless(tree.parent);
   // Parents come before their children, so that a clique is complete when its own turn comes.
   for (Index c = cliques - 1; c >= 0; --c) {
     const Index p = tree.parent[c];
@@ -142,6 +139,14 @@ void place_rows(const graph::Pattern& pattern, CliqueTree& result) {
 }
 
 }  // namespace
+
+std::vector<bool> childless(std::span<const Index> parent) {
+  std::vector<bool> result(parent.size(), true);
+  for (const Index p : parent) {
+    if (p >= 0) result[p] = false;
+  }
+  return result;
+}
 
 CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order, bool relaxed) {
   const elim::OrderedPattern by_position = elim::ordered(pattern, order);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lib/graph/pattern.h"
@@ -28,6 +29,9 @@ struct CliqueTree {
 
   Index cliques() const { return static_cast<Index>(parent.size()); }
 };
+
+// Whether each clique of a tree has none below it. parent: -1 at a root.
+std::vector<bool> childless(std::span<const Index> parent);
 
 // relaxed: whether cliques may be merged; without, they are the Bayes tree's.
 CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order,

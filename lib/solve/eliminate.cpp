@@ -115,8 +115,10 @@ Offset plan_updates(Elimination& e, const Elimination::Task& task, const std::ve
   Offset peak[2] = {0, 0};
   for (Index c = task.first; c <= task.last; ++c) {
     const int side = depth[c] % 2;
-    if (e.u_at[c] >= 0) e.u_at[c] = top[side];
-    if (e.u_at[c] >= 0) top[side] += e.front(c).size_u();
+    if (e.u_at[c] >= 0) {
+      e.u_at[c] = top[side];
+      top[side] += e.front(c).size_u();
+    }
     peak[side] = std::max(peak[side], top[side]);
     for (Index child : e.children[c]) {
       if (child >= task.first && e.u_at[child] >= 0)

@@ -122,10 +122,7 @@ void adopt_cliques(Isam2& isam, const CliqueTree& top) {
   Isam2::Work& work = isam.work;
   const auto factors = static_cast<Index>(work.rows.size());
   const graph::Lists<> rows = graph::grouped(top.row_clique, top.cliques());  // then orphans
-  std::vector<bool> leaf(top.cliques(), true);
-  for (Index p : top.parent) {
-    if (p >= 0) leaf[p] = false;
-  }
+  const std::vector<bool> leaf = childless(top.parent);
   work.made.clear();
   for (Index k = 0; k < top.cliques(); ++k) {
     const auto end = std::ranges::lower_bound(rows[k], factors);

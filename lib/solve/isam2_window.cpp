@@ -9,13 +9,15 @@
 namespace sg::solve {
 namespace {
 
-// The position of a pose at the estimate.
+// The position of a pose at the estimate; in the plane, z is 0.
 std::array<double, 3> position(const Isam2Replay& replay, Index v) {
   const factor::Problem& problem = *replay.problem;
   std::array<double, 16> numbers{};
   factor::to_file(problem.space[v], replay.isam.estimate.data() + problem.value_at[v],
                   numbers.data());
-  return {numbers[0], numbers[1], problem.space[v] == graph::Space::se2 ? 0 : numbers[2]};
+  std::array<double, 3> result{};
+  std::copy_n(numbers.begin(), graph::facts(problem.space[v]).position, result.begin());
+  return result;
 }
 
 // How far pose k is along the path.
