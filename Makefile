@@ -20,7 +20,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check faults python mutants install uninstall deb bench fuzz tsan paper orderings outliers front budget starts marginalize lint format clean picture
+.PHONY: help deps build demo check faults python mutants install uninstall deb bench fuzz tsan paper orderings outliers front regimes budget starts marginalize lint format clean picture
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -116,6 +116,9 @@ outliers: build ## which false edges sg-solve --gnc finds, and what they cost, i
 front: build build/packages/plot ## what every policy keeps and loses at many budgets, into out/front (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/front OUT=$(CURDIR)/out/front \
 	  GRAPHS="$(abspath $(GRAPHS))"
+
+regimes: build build/packages/plot ## where pruning pays and which policy, on a grid of worlds, into out/regimes
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/regimes OUT=$(CURDIR)/out/regimes
 
 budget: build ## what a budget of EC buys online, into out/budget
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/budget OUT=$(CURDIR)/out/budget

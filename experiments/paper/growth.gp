@@ -5,15 +5,15 @@ file(policy) = out.'/'.policy.r.'.trace.tsv'
 whole = out.'/full.trace.tsv'
 set multiplot layout 1,2
 set xlabel 'step'
+set logscale y
+set format y '10^{%T}'
 set ylabel 'factors'
-set format y '%.0f'
 plot whole using (column('step')):(column('edges')) with lines lw 2 lc rgb full title 'full', \
      file('rand') using (column('step')):(column('edges')) with lines lw 2 lc rgb rand title sprintf('rand%d', r), \
      file('tgreedy') using (column('step')):(column('edges')) with lines lw 2 lc rgb tgreedy title sprintf('tgreedy%d', r), \
      file('dec') using (column('step')):(column('edges')) with lines lw 2 lc rgb dec title sprintf('dec%d', r), \
      file('kf') using (r*column('step')):(column('edges')) with lines lw 2 lc rgb kf title sprintf('kf%d', r)
 set ylabel 'elimination complexity, COLAMD'
-set format y '%.1te%T'
 plot whole using (column('step')):(column('ec')) with lines lw 2 lc rgb full title 'full', \
      file('rand') using (column('step')):(column('ec')) with lines lw 2 lc rgb rand title sprintf('rand%d', r), \
      file('tgreedy') using (column('step')):(column('ec')) with lines lw 2 lc rgb tgreedy title sprintf('tgreedy%d', r), \
