@@ -6,6 +6,26 @@
 namespace sg::graph {
 namespace {
 
+Lists<> fixed_vertices(const Graph& graph, const auto& has_vertex, const auto& has_edge) {
+  Lists<> result;
+  std::vector<Index> number(graph.vertices(), -1);
+  Index count = 0;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.fixed[v] && has_vertex(v)) number[v] = count++;
+  }
+  if (count == 0) return result;
+  for (Index e = 0; e < graph.edges(); ++e) {
+    if (!has_edge(e)) continue;
+    for (Index v : graph.edge(e)) {
+      const Index k = number[v];
+      const auto row = result.open();
+      if (k >= 0 && std::ranges::find(row, k) == row.end()) result.items.push_back(k);
+    }
+    result.close();
+  }
+  return result;
+}
+
 GraphPattern pattern_of(const Graph& graph, const auto& has_vertex, const auto& has_edge) {
   GraphPattern result;
   result.vertex_variable.assign(graph.vertices(), -1);
@@ -27,6 +47,7 @@ GraphPattern pattern_of(const Graph& graph, const auto& has_vertex, const auto& 
     }
     rows.close();
   }
+  result.pattern.constants = fixed_vertices(graph, has_vertex, has_edge);
   return result;
 }
 

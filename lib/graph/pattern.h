@@ -13,6 +13,9 @@ namespace sg::graph {
 struct Pattern {
   std::vector<int> dim;  // n: tangent dimension of every variable
   Lists<> rows;          // m: distinct variables of every factor, in file order
+  // The fixed vertices of every row, numbered from 0; no lists where nothing is fixed. They have no
+  // part in the elimination, but break ties in orderings of the factors themselves (COLAMD).
+  Lists<> constants = {};
 
   Index variables() const { return static_cast<Index>(dim.size()); }
 };
