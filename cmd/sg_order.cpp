@@ -22,7 +22,7 @@ struct Options {
   std::string apply;
   bool print = false;
   std::vector<Id> last;
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 1;
   std::string budget = "200t";
 };
 
@@ -72,7 +72,7 @@ graph::Order computed_order(const cmd::Command& command, const Options& options,
                             const graph::GraphPattern& variables) {
   order::OrderOptions order_options = order::order_options(graph, variables);
   order_options.last = last_variables(options, graph, variables);
-  order_options.seed = options.seed;
+  order_options.seed = order::draw_of(options.seed);
   order_options.budget = order::parse_budget(options.budget);
   if (command.verbose) order_options.report = print_improvement;
   cmd::stop_when_interrupted(order::find_ordering(options.method), order_options);

@@ -120,7 +120,7 @@ report::Choice choice(const Options& options, const Graph& graph) {
 
 // What trajectories are compared with, and what calls name it.
 struct Reference {
-  std::optional<score::Reference> given;
+  std::optional<scoring::Reference> given;
   std::string file = "solved.g2o";
 };
 
@@ -179,7 +179,7 @@ void run(const cmd::Command& command, const Options& options) {
   Reference reference;
   if (!options.reference.empty()) {
     cmd::begin_reading(options.reference);
-    reference = {score::Reference{formats::read_graph(options.reference)}, options.reference};
+    reference = {scoring::Reference{formats::read_graph(options.reference)}, options.reference};
   }
   cmd::Output output(options.output.path);
   cmd::finish_first();

@@ -6,7 +6,7 @@
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
 #include "cmd/common/table.h"
-#include "cmd/score/columns.h"
+#include "cmd/scoring/columns.h"
 #include "lib/prune/keyframes.h"
 
 using namespace sg;
@@ -26,7 +26,7 @@ struct Options {
 };
 
 struct PoseRow {
-  score::Subject& of;
+  scoring::Subject& of;
   Index vertex;
   std::optional<double> sigma;
 };
@@ -59,11 +59,11 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_output(command, options.output);
   cmd::add_table(
       command, options.table,
-      {{"", cmd::headings(score::columns)}, {"With --per-pose:", cmd::headings(pose_columns)}});
+      {{"", cmd::headings(scoring::columns)}, {"With --per-pose:", cmd::headings(pose_columns)}});
 }
 
 // A graph's or a trajectory's file, of any format: it need not be that of the graphs.
-score::Reference read_reference(const std::string& path, formats::ReadOptions options) {
+scoring::Reference read_reference(const std::string& path, formats::ReadOptions options) {
   options.format.clear();
   cmd::begin_reading(path);
   return {formats::read_graph(path, options)};
@@ -89,7 +89,7 @@ void check_columns(const CLI::App& app, const Options& options) {
   const auto asks = [&](std::string_view name) {
     return std::ranges::count(options.table.columns, name) > 0;
   };
-  for (const auto& column : score::columns) {
+  for (const auto& column : scoring::columns) {
     if (asks(column.name) && column.needs == "--reference" && options.reference.empty())
       throw text::usage_error("column '" + column.name + "' wants a --reference");
   }
@@ -104,7 +104,7 @@ void check_columns(const CLI::App& app, const Options& options) {
 
 // What makes a comparison other than it looks.
 void warn_of_reference(const cmd::Command& command, const Options& options,
-                       score::Subject& subject) {
+                       scoring::Subject& subject) {
   const score::Trajectory &own = subject.trajectory(),
                           &reference = subject.reference.value().trajectory;
   std::vector<Id> shared;
@@ -117,14 +117,14 @@ void warn_of_reference(const cmd::Command& command, const Options& options,
   }
 }
 
-void warn_if_singular(const cmd::Command& command, score::Subject& subject) {
+void warn_if_singular(const cmd::Command& command, scoring::Subject& subject) {
   if (!subject.singular) return;
   cmd::warn(command, subject.graph.file + ": no dopt and no sigma: " +
                          score::singular_error(subject.problem(), subject.values()).what());
 }
 
-void print_poses(cmd::Table<PoseRow>& table, score::Subject& subject, const cmd::Method& method) {
-  score::Row row{subject, method};
+void print_poses(cmd::Table<PoseRow>& table, scoring::Subject& subject, const cmd::Method& method) {
+  scoring::Row row{subject, method};
   for (const score::PoseSigma& pose : row.sigmas()) table.row({subject, pose.vertex, pose.sigma});
   if (!subject.singular) return;
   for (Index v = 0; v < subject.graph.vertices(); ++v) {
@@ -151,15 +151,15 @@ void run(const cmd::Command& command, const Options& options) {
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
                          {"--reference", !options.reference.empty()}};
   cmd::Output output(options.output.path);
-  std::optional<cmd::Table<score::Row>> table;
+  std::optional<cmd::Table<scoring::Row>> table;
   std::optional<cmd::Table<PoseRow>> poses;
   if (options.per_pose) {
     poses.emplace(options.table, pose_columns, given, output);
   } else {
-    table.emplace(options.table, score::columns, given, output);
+    table.emplace(options.table, scoring::columns, given, output);
   }
   output.keep_rows();
-  std::optional<score::Reference> reference;
+  std::optional<scoring::Reference> reference;
   if (!options.reference.empty())
     reference = read_reference(options.reference, options.inputs.options);
   std::optional<score::Odometry> odometry;
@@ -169,7 +169,7 @@ void run(const cmd::Command& command, const Options& options) {
   for (const auto& path : options.inputs.paths) {
     const Graph graph = cmd::read(options.inputs, path);
     cmd::stage("score");
-    score::Subject subject{options.method, alignment, reference, odometry, path, graph, weights};
+    scoring::Subject subject{options.method, alignment, reference, odometry, path, graph, weights};
     if (reference) warn_of_reference(command, options, subject);
     for (const cmd::Method& method : cmd::methods(options.method, graph)) {
       if (table) table->row({subject, method});

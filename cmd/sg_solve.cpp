@@ -14,11 +14,11 @@
 #include "cmd/common/ranges.h"
 #include "cmd/common/same_file.h"
 #include "cmd/common/table.h"
-#include "cmd/solve/certificate.h"
-#include "cmd/solve/plan.h"
-#include "cmd/solve/residuals.h"
-#include "cmd/solve/robust.h"
-#include "cmd/solve/timing.h"
+#include "cmd/solving/certificate.h"
+#include "cmd/solving/plan.h"
+#include "cmd/solving/residuals.h"
+#include "cmd/solving/robust.h"
+#include "cmd/solving/timing.h"
 #include "lib/factor/initialize.h"
 #include "lib/solve/batch.h"
 #include "lib/solve/best_start.h"
@@ -38,7 +38,7 @@ struct Options {
   bool gauss_newton = false;
   std::optional<int> iterations;  // as many, whether that is enough or not
   double tolerance = 1e-9;
-  solve::RobustOptions robust;
+  solving::RobustOptions robust;
   cmd::MethodOptions method;
   std::string backend{solve::backends().front().name};
   int threads = tbb::info::default_concurrency();
@@ -65,7 +65,7 @@ void add_options(cmd::Command& command, Options& options) {
                  "Least relative change of chi-square (default: 1e-9)")
       ->option_text("X")
       ->check(cmd::number(0));
-  solve::add_robust(app, options.robust);
+  solving::add_robust(app, options.robust);
   app.add_option("--weights", options.weights, "Write a table, too: what every edge counted")
       ->option_text("FILE");
   app.add_option("--fix", options.fixed, "Take these vertices for constants")
@@ -94,18 +94,18 @@ void add_options(cmd::Command& command, Options& options) {
       ->transform(cmd::whole(1));
   cmd::add_filter_output(command, options.output);
   cmd::add_table(command, options.table,
-                 {{"", cmd::headings(solve::time_columns)},
-                  {"With --residuals and --weights:", cmd::headings(solve::residual_columns)},
-                  {"With --certify:", cmd::headings(solve::certificate_columns)}});
+                 {{"", cmd::headings(solving::time_columns)},
+                  {"With --residuals and --weights:", cmd::headings(solving::residual_columns)},
+                  {"With --certify:", cmd::headings(solving::certificate_columns)}});
 }
 
 solve::BatchOptions batch_options(const Options& options, const Graph& graph) {
   solve::BatchOptions batch;
   batch.method = options.gauss_newton ? solve::BatchMethod::gauss_newton
                                       : solve::BatchMethod::levenberg_marquardt;
-  batch.iterations = options.iterations.value_or(solve::most_iterations);
+  batch.iterations = options.iterations.value_or(solving::most_iterations);
   batch.tolerance = options.tolerance;
-  batch.loss = solve::loss(options.robust, graph);
+  batch.loss = solving::loss(options.robust, graph);
   return batch;
 }
 
@@ -157,19 +157,19 @@ void print_residuals(const Options& options, const std::string& path,
                      const factor::Problem& problem, const factor::Values& values,
                      const factor::Loss& loss) {
   cmd::Output output(path);
-  cmd::Table table(options.table, solve::residual_columns, {}, output);
-  solve::print_residuals(problem, values, loss, table);
+  cmd::Table table(options.table, solving::residual_columns, {}, output);
+  solving::print_residuals(problem, values, loss, table);
   output.commit();
 }
 
 void print_certificate(const cmd::Command& command, const Options& options,
                        const factor::Problem& problem, const factor::Values& values) {
   cmd::Output output(options.output.path);
-  cmd::Table table(options.table, solve::certificate_columns, {}, output);
+  cmd::Table table(options.table, solving::certificate_columns, {}, output);
   cmd::stage("certify");
   const solve::Certificate certificate = solve::certify(problem, values);
   table.row(certificate);
-  solve::warn_of_model(command, certificate);
+  solving::warn_of_model(command, certificate);
   output.commit();
 }
 
@@ -186,7 +186,7 @@ std::string_view start_name(const Options& options, const Graph& graph) {
 
 // Where the user says, or the best of several.
 std::vector<solve::Candidate> candidates(const Options& options, const factor::Problem& problem) {
-  const factor::Loss loss = solve::loss(options.robust, *problem.graph);
+  const factor::Loss loss = solving::loss(options.robust, *problem.graph);
   if (options.start.empty() && !options.robust.gnc) return solve::default_candidates(problem, loss);
   // False edges tell nothing of a start, so that --gnc's is not chosen by chi-square.
   std::vector<solve::Candidate> one;
@@ -210,7 +210,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   if (command.verbose) tell_starts(starts);
   const Graph& graph = *problem.graph;
   const auto plan = [&](const factor::Problem& part, const factor::LinearSystem& system) {
-    return solve::planned({options.method, options.backend, options.threads}, part, system);
+    return solving::planned({options.method, options.backend, options.threads}, part, system);
   };
   cmd::stage("order");
   factor::LinearSystem system;
@@ -238,7 +238,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   if (options.robust.gnc) {
     tell_start(starts.front());
     values = std::move(starts.front().values);
-    found = solve::graduate(problem, plan, solve::gnc_options(options.robust, problem, batch),
+    found = solve::graduate(problem, plan, solving::gnc_options(options.robust, problem, batch),
                             values, report);
   } else {
     const bool others = options.start.empty() && !options.iterations;
@@ -253,7 +253,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
     print_residuals(options, options.weights, problem, values, batch.loss);
   }
   cmd::write_filtered(command, options.output, graph,
-                      cmd::estimate_changes(problem, values, solve::moved(problem)));
+                      cmd::estimate_changes(problem, values, solving::moved(problem)));
   tell(command, result, cmd::seconds_since(begin));
 }
 
@@ -268,7 +268,7 @@ void check_files(const Options& options) {
 void check_call(const cmd::Command& command, const Options& options) {
   const CLI::App& app = command.app;
   cmd::check_form(app);
-  solve::check_robust(app, options.robust);
+  solving::check_robust(app, options.robust);
   cmd::at_most_one(app, {{"--chi2", "prints the chi-square"},
                          {"--residuals", "prints that of every edge"},
                          {"--certify", "tells whether it is the least"},
@@ -306,11 +306,11 @@ void run(const cmd::Command& command, const Options& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
   std::optional<cmd::Output> output;
-  std::optional<cmd::Table<solve::Timing>> times;
+  std::optional<cmd::Table<solving::Timing>> times;
   if (options.chi2 || options.runs > 0) output.emplace(options.output.path);
   if (options.runs > 0) {
     const cmd::Given given{{"several files", options.inputs.paths.size() > 1}};
-    times.emplace(options.table, solve::time_columns, given, *output);
+    times.emplace(options.table, solving::time_columns, given, *output);
   }
   for (const std::string& path : options.inputs.paths) {
     Graph graph = cmd::read(options.inputs, path);
@@ -322,7 +322,7 @@ void run(const cmd::Command& command, const Options& options) {
       solve(command, options, problem);
       continue;
     }
-    const factor::Loss loss = solve::loss(options.robust, graph);
+    const factor::Loss loss = solving::loss(options.robust, graph);
     const factor::Values values = solve::find_start(start_name(options, graph)).make(problem);
     if (options.chi2) {
       print_chi2(options, problem, values, loss, *output);
@@ -331,8 +331,8 @@ void run(const cmd::Command& command, const Options& options) {
     } else if (options.certify) {
       print_certificate(command, options, problem, values);
     } else {
-      solve::print_times({options.runs, options.threads, options.backend, options.method, loss},
-                         problem, values, *times);
+      solving::print_times({options.runs, options.threads, options.backend, options.method, loss},
+                           problem, values, *times);
     }
   }
   if (output) output->commit();

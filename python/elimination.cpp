@@ -33,7 +33,7 @@ py::array_t<Id> order(const Graph& graph, const std::string& method, std::uint64
   unlocked([&] {
     const graph::GraphPattern variables = graph::graph_pattern(graph);
     order::OrderOptions options = order::order_options(graph, variables);
-    options.seed = seed;
+    options.seed = order::draw_of(seed);
     for (const Id id : last) {
       const auto v = graph::find_vertex(graph, id);
       if (!v || variables.vertex_variable[*v] < 0)
@@ -131,7 +131,7 @@ graph::Order chosen_order(const OrderArgument& order, std::uint64_t seed, const 
                           const graph::GraphPattern& variables) {
   if (!order.method.empty()) {
     order::OrderOptions options = order::order_options(graph, variables);
-    options.seed = seed;
+    options.seed = order::draw_of(seed);
     return order::elimination_order(order.method, variables.pattern, options);
   }
   graph::Order result;
@@ -158,22 +158,22 @@ void bind_elimination(py::module_& module) {
         return all;
       },
       "Names of the orderings, and what each is.");
-  module.def("order", &order, "graph"_a, "method"_a = "wmf", py::kw_only(), "seed"_a = 0,
+  module.def("order", &order, "graph"_a, "method"_a = "wmf", py::kw_only(), "seed"_a = 1,
              "last"_a = std::vector<Id>(),
              "ids of the variables in an elimination order, the first to be eliminated first.\n"
              "last: ids that are to be eliminated after all others.");
   module.def("ec", &ec, "graph"_a, "order"_a = std::string(order::default_ordering), py::kw_only(),
-             "seed"_a = 0,
+             "seed"_a = 1,
              "Elimination complexity, exactly. order: a method's name, or ids as `order` gives.");
   module.def("elimination", &elimination, "graph"_a,
-             "order"_a = std::string(order::default_ordering), py::kw_only(), "seed"_a = 0,
+             "order"_a = std::string(order::default_ordering), py::kw_only(), "seed"_a = 1,
              "What an elimination costs, by the names of the columns of sg-ec(1).");
   module.def("growth", &growth, "graph"_a, "order"_a = std::string(order::default_ordering),
-             py::kw_only(), "every"_a = 1, "min_obs"_a = 1, "seed"_a = 0,
+             py::kw_only(), "every"_a = 1, "min_obs"_a = 1, "seed"_a = 1,
              "The graph as it grows, as sg-ec --trace prints it: step, edges and ec (rounded to a "
              "double).");
   module.def("bayes_tree", &bayes_tree, "graph"_a, "order"_a = std::string(order::default_ordering),
-             py::kw_only(), "seed"_a = 0,
+             py::kw_only(), "seed"_a = 1,
              "The Bayes tree, a clique an index, parents before children: parent (-1 at a root), "
              "frontals and\nseparators (ids), frontal_dim and total_dim.");
 }

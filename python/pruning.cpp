@@ -83,13 +83,13 @@ SharedGraph ec_greedy(const Graph& graph, std::optional<double> ec, std::optiona
     throw text::usage_error("how much stays? One of ec, sigma and keep");
   return pruned(graph, kind, min_obs, [&](const Subject& from) {
     prune::EcGreedyOptions options;
-    options.seed = seed;
+    options.seed = order::draw_of(seed);
     if (ec) options.ec = ecgreedy::rounded(*ec);
     options.start_ec = options.ec;
     options.sigma = sigma;
     options.kept = keep;
     options.order = [&](const graph::GraphPattern& variables) {
-      return chosen_order({method, {}}, 0, graph, variables);
+      return chosen_order({method, {}}, 1, graph, variables);
     };
     const factor::Problem problem = factor::make_problem(graph);
     const factor::Values values = factor::start_values(problem);
@@ -141,7 +141,7 @@ void bind_pruning(py::module_& module) {
              min_obs, "Keep the candidates that carry most spanning trees: sg-tgreedy(1).");
   module.def("ecgreedy", &ec_greedy, "graph"_a, py::kw_only(), "ec"_a = py::none(),
              "sigma"_a = py::none(), "keep"_a = py::none(), "order"_a = "wmf", kind, min_obs,
-             "seed"_a = 0,
+             "seed"_a = 1,
              "Keep the candidates that add most accuracy for their elimination complexity: "
              "sg-ecgreedy(1).\nUp to an EC, to a mean sigma of positions, or to a count.");
 }

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "cmd/common/estimates.h"
-#include "cmd/solve/plan.h"
+#include "cmd/solving/plan.h"
 #include "formats/applied.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
@@ -31,11 +31,11 @@ Solution solve(const Graph& graph, const std::string& start, bool gauss_newton,
     const factor::Problem problem = factor::make_problem(graph);
     factor::LinearSystem system = factor::make_linear_system(problem);
     const solve::LinearSolver solver = solve::backends().front().make(
-        system, chosen_order(argument, 0, graph, graph::graph_pattern(graph)), threads);
+        system, chosen_order(argument, 1, graph, graph::graph_pattern(graph)), threads);
     solve::BatchOptions options;
     options.method =
         gauss_newton ? solve::BatchMethod::gauss_newton : solve::BatchMethod::levenberg_marquardt;
-    options.iterations = iterations.value_or(solve::most_iterations);
+    options.iterations = iterations.value_or(solving::most_iterations);
     options.tolerance = tolerance;
     std::vector<solve::Candidate> starts;
     if (start.empty()) {
@@ -51,9 +51,10 @@ Solution solve(const Graph& graph, const std::string& start, bool gauss_newton,
       throw text::computation_error("not converged after " + std::to_string(result.iterations) +
                                     " iterations, chi-square " + text::format_number(result.chi2) +
                                     "; iterations=N returns what N of them reach");
-    return Solution{shared(formats::applied(
-                        graph, cmd::estimate_changes(problem, values, solve::moved(problem)), {})),
-                    result};
+    return Solution{
+        shared(formats::applied(
+            graph, cmd::estimate_changes(problem, values, solving::moved(problem)), {})),
+        result};
   });
 }
 
@@ -75,7 +76,7 @@ AtEstimate at_estimate(const Graph& graph) {
   factor::Values values = factor::start_values(problem);
   const graph::GraphPattern variables = graph::graph_pattern(graph);
   auto elimination =
-      score::eliminated(problem, values, chosen_order({"wmf", {}}, 0, graph, variables));
+      score::eliminated(problem, values, chosen_order({"wmf", {}}, 1, graph, variables));
   if (!elimination) throw score::singular_error(problem, values);
   return {std::move(problem), std::move(values), std::move(*elimination)};
 }

@@ -70,7 +70,7 @@ std::vector<Method> methods(const MethodOptions& options, const Graph& graph) {
 graph::Order order_by(const Method& method, const MethodOptions& options, const Graph& graph,
                       const graph::GraphPattern& variables) {
   order::OrderOptions order_options = order::order_options(graph, variables);
-  order_options.seed = options.seed;
+  order_options.seed = order::draw_of(options.seed);
   if (!options.budget.empty()) order_options.budget = order::parse_budget(options.budget);
   stop_when_interrupted(*method.ordering, order_options);
   return order::elimination_order(*method.ordering, variables.pattern, order_options);

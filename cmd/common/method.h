@@ -11,7 +11,7 @@ namespace sg::cmd {
 
 struct MethodOptions {
   std::vector<std::string> names;  // empty: the file's order if sg-order left one, else the default
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 1;
   std::string budget = {};  // of best, as --budget has it; empty: its default
 };
 void add_methods(Command& command, MethodOptions& options);  // -m NAME,...

@@ -19,8 +19,7 @@ CLI::Validator number(double least = 0, double most = std::numeric_limits<double
 CLI::Validator above_zero();
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-// --seed N. Orderings have 0, which draws nothing where ties can do without; what is made by drawing
-// has 1.
+// --seed N; 1 where nobody says.
 CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& what);
 
 // The same of a pruning command that draws nothing: whoever sweeps over commands need not know.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cmd/ec/columns.h"
-#include "cmd/solve/timing.h"
+#include "cmd/solving/timing.h"
 #include "lib/solve/linear_solver.h"
 #include "lib/solve/start.h"
 
@@ -17,8 +17,8 @@ const std::vector<cmd::Column<ec::ScoreRow>>& score_columns() {
   return columns;
 }
 
-const std::vector<cmd::Column<solve::Timing>>& time_columns() {
-  static const auto columns = some(solve::time_columns, {"plan_s", "median_s", "s_per_ec"});
+const std::vector<cmd::Column<solving::Timing>>& time_columns() {
+  static const auto columns = some(solving::time_columns, {"plan_s", "median_s", "s_per_ec"});
   return columns;
 }
 
@@ -54,8 +54,8 @@ std::optional<double> median_seconds(const Study& study, Timer& timer, const std
   if (deadline.left() <= expected) return std::nullopt;
   const int runs = deadline.left() > timed_runs * expected ? timed_runs : 1;
   static const factor::Loss none;
-  solve::Timing timing = solve::timed({runs, study.threads, backend(), study.methods, none},
-                                      timer.problem, timer.values, timer.system, label, order);
+  solving::Timing timing = solving::timed({runs, study.threads, backend(), study.methods, none},
+                                          timer.problem, timer.values, timer.system, label, order);
   if (ec > 0) timer.s_per_ec = timing.median_s / elim::to_double(ec);
   if (cells) *cells = report::cells(time_columns(), timing);
   return timing.median_s;

@@ -93,10 +93,10 @@ std::optional<Graph> by_accuracy(const Graph& graph, const Pruning& pruning, dou
     const factor::Values values = factor::start_values(problem);
     const prune::Evidence evidence = prune::measured_evidence(problem, values);
     const prune::Choice choice{graph, poses, candidates, pruning.min_obs};
-    const cmd::MethodOptions method{{"wmf"}, 0};
+    const cmd::MethodOptions method{{"wmf"}};
     bool whole = true;
     prune::EcGreedyOptions greedy;
-    greedy.seed = method.seed;
+    greedy.seed = order::draw_of(method.seed);
     greedy.order = [&](const graph::GraphPattern& variables) {
       return cmd::order_by(cmd::methods(method, graph).front(), method, graph, variables);
     };

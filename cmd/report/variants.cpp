@@ -4,7 +4,7 @@
 
 #include "cmd/common/estimates.h"
 #include "cmd/isam2/timed.h"
-#include "cmd/solve/plan.h"
+#include "cmd/solving/plan.h"
 #include "formats/applied.h"
 #include "lib/solve/best_start.h"
 #include "lib/solve/isam2_replay.h"
@@ -19,7 +19,7 @@ constexpr double for_the_whole = 0.25;  // of the time, since all others are com
 struct Bench {
   Study& study;
   std::vector<cmd::Method> methods;  // of a policy's graph: one or two
-  std::optional<score::Reference> reference;
+  std::optional<scoring::Reference> reference;
   std::string reference_file;  // in calls
   Index min_obs;
   elim::Wide whole_ec = 0;
@@ -35,9 +35,9 @@ std::optional<Graph> solved(const Study& study, Timer& timer, const cmd::Method&
   const std::string backend(solve::backends().front().name);
   factor::LinearSystem system = factor::make_linear_system(timer.problem);
   const solve::LinearSolver solver =
-      solve::planned({methods, backend, study.threads}, timer.problem, system);
+      solving::planned({methods, backend, study.threads}, timer.problem, system);
   solve::BatchOptions options;
-  options.iterations = solve::most_iterations;
+  options.iterations = solving::most_iterations;
   options.stop = [&] { return deadline.passed(); };
   factor::Values values;
   const solve::BatchResult result = solve::optimize_from_best(
@@ -47,9 +47,9 @@ std::optional<Graph> solved(const Study& study, Timer& timer, const cmd::Method&
   if (!result.converged)
     throw text::computation_error("not converged after " + std::to_string(result.iterations) +
                                   " iterations");
-  return formats::applied(graph,
-                          cmd::estimate_changes(timer.problem, values, solve::moved(timer.problem)),
-                          study.reading);
+  return formats::applied(
+      graph, cmd::estimate_changes(timer.problem, values, solving::moved(timer.problem)),
+      study.reading);
 }
 
 // Nothing where the time did not suffice.
@@ -72,11 +72,11 @@ std::optional<double> isam2_seconds(const Graph& graph, const cmd::Method& metho
 
 void score_solved(Bench& bench, const Graph& solved, std::span<Variant> variants) {
   static const std::optional<score::Odometry> none;
-  if (!bench.reference) bench.reference = score::Reference{solved};
-  score::Subject subject{
+  if (!bench.reference) bench.reference = scoring::Reference{solved};
+  scoring::Subject subject{
       bench.study.methods, score::Alignment::se, bench.reference, none, solved.file, solved,
       trees::Weights::unit};
-  score::Row row{subject, bench.methods.front()};
+  scoring::Row row{subject, bench.methods.front()};
   const std::optional<double> sigma = row.sigma_mean();
   for (Variant& variant : variants) {
     variant.sigma = sigma;
@@ -209,7 +209,7 @@ std::vector<cmd::Method> methods_of_variants(const Study& study,
 
 std::vector<Variant> variants(Study& study, const Choice& choice,
                               const std::vector<Ordered>& orderings,
-                              const std::optional<score::Reference>& reference,
+                              const std::optional<scoring::Reference>& reference,
                               const std::string& reference_file, const Deadline& deadline) {
   Bench bench{study, methods_of_variants(study, orderings), reference, reference_file,
               choice.min_obs};

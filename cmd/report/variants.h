@@ -9,7 +9,7 @@
 #include "cmd/report/policies.h"
 #include "cmd/report/sheet.h"
 #include "cmd/report/study.h"
-#include "cmd/score/columns.h"
+#include "cmd/scoring/columns.h"
 
 namespace sg::report {
 
@@ -37,7 +37,7 @@ struct Choice {
 // left of the time goes to each, so that there is something of all.
 std::vector<Variant> variants(Study& study, const Choice& choice,
                               const std::vector<Ordered>& orderings,
-                              const std::optional<score::Reference>& reference,
+                              const std::optional<scoring::Reference>& reference,
                               const std::string& reference_file, const Deadline& deadline);
 Sheet sheet(const std::vector<Variant>& variants);
 

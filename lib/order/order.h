@@ -36,9 +36,15 @@ struct Improvement {
   elim::Wide ec;
 };
 
+// Seeds that users give count from 1, as those of worlds do; draws from 0, by which ties go as the
+// pattern has them.
+constexpr std::uint64_t draw_of(std::uint64_t seed) {
+  return seed - 1;
+}
+
 // What an ordering may want to know beyond the pattern. Left empty, each field says nothing.
 struct OrderOptions {
-  std::uint64_t seed = 0;         // of methods that draw at random
+  std::uint64_t seed = 0;         // of methods that draw at random: which draw
   std::vector<Index> last;        // variables to be eliminated after all others, in any order
   std::vector<Index> file_order;  // all variables as the file lists them; empty: as numbered
   std::vector<bool> landmark;     // of every variable; empty: none is

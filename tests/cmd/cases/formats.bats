@@ -65,7 +65,7 @@ fact() {
   sed 's/TUTORIAL_PARAMS_SE2_OFFSET/PARAMS_SE2OFFSET/; s/TUTORIAL_VERTEX_POINT_XY/VERTEX_XY/
        s/TUTORIAL_EDGE_SE2_POINT_XY/EDGE_SE2_POINTXY_OFFSET/; s/TUTORIAL_//' 27-tutorial-tags.g2o > known.g2o
   [ "$(sg-ec -f ec --no-header "${aliases[@]}" 27-tutorial-tags.g2o)" = "$(sg-ec -f ec --no-header known.g2o)" ]
-  run -0 sg-ec -f ec --no-header --params TUTORIAL_PARAMS_SE2_OFFSET --vertex TUTORIAL_VERTEX_SE2:3 \
+  run -0 sg-ec -f ec --no-header --params TUTORIAL_PARAMS_SE2_OFFSET --vertex TUTORIAL_VERTEX_SE2:3:pose \
     --vertex TUTORIAL_VERTEX_POINT_XY:2:landmark --edge TUTORIAL_EDGE_SE2:2 --edge TUTORIAL_EDGE_SE2_POINT_XY:2 27-tutorial-tags.g2o
   [ "$output" = 77 ]
   [ "$(sg-order --no-trace-comment "${aliases[@]}" 27-tutorial-tags.g2o | sed 's/.*_VERTEX/VERTEX/' | grep -c VERTEX)" = 3 ]

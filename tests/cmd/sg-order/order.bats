@@ -78,7 +78,7 @@ others() { grep -v '^# sg-order' "$1" | grep -vnE '^ *(VERTEX|ROBOTLASER)'; }
 
 @test "the seed decides a random order" {
   sg-order -m random --print walk.g2o >a
-  sg-order -m random --seed 0 --print walk.g2o | cmp - a
+  sg-order -m random --seed 1 --print walk.g2o | cmp - a
   sg-order -m random --seed 7 --print walk.g2o >b
   run -1 cmp -s a b
 }

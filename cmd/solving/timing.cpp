@@ -1,4 +1,4 @@
-#include "cmd/solve/timing.h"
+#include "cmd/solving/timing.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 #include "lib/solve/batch.h"
 #include "lib/solve/linear_solver.h"
 
-namespace sg::solve {
+namespace sg::solving {
 namespace {
 
 double median(std::vector<double> times) {
@@ -23,13 +23,13 @@ Timing timed(const TimingOptions& options, const factor::Problem& problem,
              const graph::Order& order) {
   const graph::Pattern& pattern = problem.variables.pattern;
   const auto start = std::chrono::steady_clock::now();
-  const auto solver = find_backend(options.backend).make(system, order, options.threads);
+  const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
   const double plan = cmd::seconds_since(start);
   std::vector<double> times;
   for (int k = 0; k < options.runs && (k == 0 || !cmd::interrupted()); ++k) {
     cmd::progress(k);
     const auto begin = std::chrono::steady_clock::now();
-    if (!solver.eliminate(system, {})) throw singular_error(problem, values, system);
+    if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
     times.push_back(cmd::seconds_since(begin));
   }
   return {problem.graph->file,
@@ -73,4 +73,4 @@ void print_times(const TimingOptions& options, const factor::Problem& problem,
   }
 }
 
-}  // namespace sg::solve
+}  // namespace sg::solving

@@ -1,8 +1,8 @@
-#include "cmd/solve/residuals.h"
+#include "cmd/solving/residuals.h"
 
 #include <algorithm>
 
-namespace sg::solve {
+namespace sg::solving {
 namespace {
 
 cmd::IdList ids(const ResidualRow& row) {
@@ -50,4 +50,4 @@ void print_residuals(const factor::Problem& problem, const factor::Values& value
   }
 }
 
-}  // namespace sg::solve
+}  // namespace sg::solving

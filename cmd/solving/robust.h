@@ -7,7 +7,7 @@
 #include "cmd/common/command.h"
 #include "lib/solve/gnc.h"
 
-namespace sg::solve {
+namespace sg::solving {
 
 struct RobustOptions {
   std::string kernel;  // NAME:W, or empty
@@ -24,4 +24,4 @@ factor::Loss loss(const RobustOptions& options, const Graph& graph);
 solve::GncOptions gnc_options(const RobustOptions& options, const factor::Problem& problem,
                               solve::BatchOptions batch);
 
-}  // namespace sg::solve
+}  // namespace sg::solving

@@ -1,15 +1,15 @@
-#include "cmd/solve/plan.h"
+#include "cmd/solving/plan.h"
 
-namespace sg::solve {
+namespace sg::solving {
 
-LinearSolver planned(const Plan& plan, const factor::Problem& problem,
-                     const factor::LinearSystem& system) {
+solve::LinearSolver planned(const Plan& plan, const factor::Problem& problem,
+                            const factor::LinearSystem& system) {
   graph::GraphPattern variables = problem.variables;
   graph::Lists<>& rows = variables.pattern.rows;
   if (problem.held >= 0) rows.begin.pop_back();  // the order is that without the gauge's row
   rows.items.resize(rows.begin.back());
   const graph::Order order = cmd::named_order(plan.method, *problem.graph, variables).order;
-  return find_backend(plan.backend).make(system, order, plan.threads);
+  return solve::find_backend(plan.backend).make(system, order, plan.threads);
 }
 
 std::vector<bool> moved(const factor::Problem& problem) {
@@ -20,4 +20,4 @@ std::vector<bool> moved(const factor::Problem& problem) {
   return result;
 }
 
-}  // namespace sg::solve
+}  // namespace sg::solving

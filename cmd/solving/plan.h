@@ -6,7 +6,7 @@
 #include "cmd/common/method.h"
 #include "lib/solve/linear_solver.h"
 
-namespace sg::solve {
+namespace sg::solving {
 
 constexpr int most_iterations = 1000;  // which have to converge
 
@@ -16,10 +16,10 @@ struct Plan {
   int threads;
 };
 // What eliminates a problem's systems, in the order that the method gives its graph.
-LinearSolver planned(const Plan& plan, const factor::Problem& problem,
-                     const factor::LinearSystem& system);
+solve::LinearSolver planned(const Plan& plan, const factor::Problem& problem,
+                            const factor::LinearSystem& system);
 
 // Which vertices' lines an optimization rewrites: all but the constants.
 std::vector<bool> moved(const factor::Problem& problem);
 
-}  // namespace sg::solve
+}  // namespace sg::solving

@@ -9,7 +9,7 @@
 #include "lib/elim/score.h"
 #include "lib/factor/linearize.h"
 
-namespace sg::solve {
+namespace sg::solving {
 
 // How long elimination takes, as --time measures it.
 struct Timing {
@@ -43,4 +43,4 @@ Timing timed(const TimingOptions& options, const factor::Problem& problem,
 void print_times(const TimingOptions& options, const factor::Problem& problem,
                  const factor::Values& values, cmd::Table<Timing>& table);
 
-}  // namespace sg::solve
+}  // namespace sg::solving

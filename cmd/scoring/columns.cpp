@@ -1,4 +1,4 @@
-#include "cmd/score/columns.h"
+#include "cmd/scoring/columns.h"
 
 #include <algorithm>
 #include <numeric>
@@ -8,12 +8,12 @@
 #include "lib/trees/connectivity.h"
 #include "lib/trees/spanning_trees.h"
 
-namespace sg::score {
+namespace sg::scoring {
 
-const Trajectory& Subject::trajectory() {
+const score::Trajectory& Subject::trajectory() {
   return cmd::once(trajectory_, [&] {
-    Trajectory kept = score::trajectory(graph);
-    return odometry ? filled(kept, *odometry) : kept;
+    score::Trajectory kept = score::trajectory(graph);
+    return odometry ? score::filled(kept, *odometry) : kept;
   });
 }
 
@@ -33,13 +33,13 @@ const factor::Values& Subject::values() {
   return cmd::once(values_, [&] { return factor::start_values(problem()); });
 }
 
-const TrajectoryError& Subject::error() {
+const score::TrajectoryError& Subject::error() {
   return cmd::once(error_, [&] {
-    return trajectory_error(trajectory(), reference.value().trajectory, alignment);
+    return score::trajectory_error(trajectory(), reference.value().trajectory, alignment);
   });
 }
 
-const std::optional<Divergence>& Subject::divergence() {
+const std::optional<score::Divergence>& Subject::divergence() {
   return cmd::once(divergence_, [&] { return score::divergence(graph, reference.value().graph); });
 }
 
@@ -61,8 +61,8 @@ elim::Wide Row::ec() {
 }
 
 std::optional<solve::Elimination>& Row::elimination() {
-  auto& result =
-      cmd::once(elimination_, [&] { return eliminated(of.problem(), of.values(), order()); });
+  auto& result = cmd::once(elimination_,
+                           [&] { return score::eliminated(of.problem(), of.values(), order()); });
   of.singular = of.singular || !result;
   return result;
 }
@@ -72,10 +72,10 @@ std::optional<double> Row::log_det() {
   return solve::log_determinant(*elimination());
 }
 
-const std::vector<PoseSigma>& Row::sigmas() {
+const std::vector<score::PoseSigma>& Row::sigmas() {
   return cmd::once(of.sigmas_, [&] {
-    if (!elimination()) return std::vector<PoseSigma>{};
-    return pose_sigmas(of.problem(), of.values(), *elimination());
+    if (!elimination()) return std::vector<score::PoseSigma>{};
+    return score::pose_sigmas(of.problem(), of.values(), *elimination());
   });
 }
 
@@ -88,7 +88,7 @@ std::optional<double> Row::sigma_mean() {
 
 std::optional<double> Row::sigma_max() {
   if (sigmas().empty()) return std::nullopt;
-  return std::ranges::max(sigmas(), {}, &PoseSigma::sigma).sigma;
+  return std::ranges::max(sigmas(), {}, &score::PoseSigma::sigma).sigma;
 }
 
 const std::vector<cmd::Column<Row>> columns{
@@ -117,4 +117,4 @@ const std::vector<cmd::Column<Row>> columns{
     {"ec", "Elimination complexity", &Row::ec},
 };
 
-}  // namespace sg::score
+}  // namespace sg::scoring

@@ -1,4 +1,4 @@
-#include "cmd/solve/robust.h"
+#include "cmd/solving/robust.h"
 
 #include "cmd/common/options.h"
 #include "lib/factor/residuals.h"
@@ -6,7 +6,7 @@
 #include "lib/text/nearest.h"
 #include "lib/text/words.h"
 
-namespace sg::solve {
+namespace sg::solving {
 namespace {
 
 factor::Kernel parse_kernel(const std::string& text) {
@@ -77,4 +77,4 @@ solve::GncOptions gnc_options(const RobustOptions& options, const factor::Proble
   return result;
 }
 
-}  // namespace sg::solve
+}  // namespace sg::solving

@@ -1,6 +1,6 @@
-#include "cmd/solve/certificate.h"
+#include "cmd/solving/certificate.h"
 
-namespace sg::solve {
+namespace sg::solving {
 
 using solve::Certificate;
 
@@ -24,4 +24,4 @@ void warn_of_model(const cmd::Command& command, const Certificate& certificate) 
                 " not at all; what is not certified may be the global optimum all the same");
 }
 
-}  // namespace sg::solve
+}  // namespace sg::solving

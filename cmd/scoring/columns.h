@@ -13,41 +13,41 @@
 #include "lib/score/trajectory.h"
 #include "lib/trees/tree_weights.h"
 
-namespace sg::score {
+namespace sg::scoring {
 
 // What graphs are compared with.
 struct Reference {
   Graph graph;
-  Trajectory trajectory = score::trajectory(graph);
+  score::Trajectory trajectory = score::trajectory(graph);
 };
 
 // What a graph's rows share, whatever the ordering.
 struct Subject {
   const cmd::MethodOptions& methods;
-  Alignment alignment;
+  score::Alignment alignment;
   const std::optional<Reference>& reference;
-  const std::optional<Odometry>& odometry;  // to place dropped poses by
+  const std::optional<score::Odometry>& odometry;  // to place dropped poses by
   const std::string& file;
   const Graph& graph;
   trees::Weights weights;
   graph::GraphPattern variables = graph::graph_pattern(graph);
-  std::optional<Trajectory> trajectory_ = {};
+  std::optional<score::Trajectory> trajectory_ = {};
   std::optional<double> log_trees_ = {};
   std::optional<std::optional<double>> lambda2_ = {};
-  std::optional<TrajectoryError> error_ = {};
-  std::optional<std::optional<Divergence>> divergence_ = {};
+  std::optional<score::TrajectoryError> error_ = {};
+  std::optional<std::optional<score::Divergence>> divergence_ = {};
   std::optional<factor::Problem> problem_ = {};
   std::optional<factor::Values> values_ = {};
-  std::optional<std::vector<PoseSigma>> sigmas_ = {};  // none of a singular graph
-  bool singular = false;                               // once it has been eliminated
+  std::optional<std::vector<score::PoseSigma>> sigmas_ = {};  // none of a singular graph
+  bool singular = false;                                      // once it has been eliminated
 
-  const Trajectory& trajectory();
+  const score::Trajectory& trajectory();
   double log_trees();
   std::optional<double> lambda2();
   const factor::Problem& problem();
   const factor::Values& values();
-  const TrajectoryError& error();
-  const std::optional<Divergence>& divergence();
+  const score::TrajectoryError& error();
+  const std::optional<score::Divergence>& divergence();
   std::optional<double> kld();
   std::optional<double> overconfidence();
 };
@@ -62,10 +62,10 @@ struct Row {
   elim::Wide ec();
   std::optional<solve::Elimination>& elimination();
   std::optional<double> log_det();
-  const std::vector<PoseSigma>& sigmas();
+  const std::vector<score::PoseSigma>& sigmas();
   std::optional<double> sigma_mean();
   std::optional<double> sigma_max();
 };
 extern const std::vector<cmd::Column<Row>> columns;
 
-}  // namespace sg::score
+}  // namespace sg::scoring

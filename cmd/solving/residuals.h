@@ -4,7 +4,7 @@
 #include "cmd/common/table.h"
 #include "lib/factor/residuals.h"
 
-namespace sg::solve {
+namespace sg::solving {
 
 struct ResidualRow {
   const Graph& graph;
@@ -17,4 +17,4 @@ extern const std::vector<cmd::Column<ResidualRow>> residual_columns;
 void print_residuals(const factor::Problem& problem, const factor::Values& values,
                      const factor::Loss& loss, cmd::Table<ResidualRow>& table);
 
-}  // namespace sg::solve
+}  // namespace sg::solving
