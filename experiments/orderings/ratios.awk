@@ -1,8 +1,9 @@
 # A row a graph for the picture: EC by colamd's, ordering time by amd's, elimination time by colamd's; NaN where unknown.
 BEGIN { FS = OFS = "\t"; n = split("colamd amd metis scotch wmf best", shown, " ") }
-FNR == 1 { next }
+FNR == 1 { ++file; next }
+file == 2 { eliminate[$1, $2] = $6; next }
 !($1 in seen) { seen[$1]; graph[++graphs] = $1 }
-{ ec[$1, $4] = $5; order[$1, $4] = $9; eliminate[$1, $4] = $10 }
+{ ec[$1, $4] = $5; order[$1, $4] = $9 }
 function ratio(a, b) { return a == "-" || b == "-" || b + 0 == 0 ? "NaN" : a / b }
 END {
   printf "graph"

@@ -1,7 +1,8 @@
 // The best order that a budget buys: an anytime portfolio.
 //
-// First all other methods of the table, each scored exactly. Then tries, in rounds of a fixed
-// number that run in parallel, of two kinds:
+// First all other methods of the table, and METIS with ten times the pains, each scored exactly; a few
+// of them are polished (polish.h). Then tries, in rounds of a fixed number that run in parallel,
+// of two kinds:
 //
 //   - restarts: a pass of greedy_fill (wmf.h) with random ties and jittered scores, given up as
 //     soon as it costs more than the best; on a wide graph, also dissections (dissect.h) by other
@@ -16,17 +17,26 @@
 // A try depends on its number, the seed, and the best order at the start of its round, not on
 // threads or time: a budget in tries gives the same order everywhere. With a budget in seconds,
 // methods and tries that would outlast it by what amd took are left out.
+//
+// What is minimized is EC, or a price that the caller has for whole orders (OrderOptions): then tries
+// still look for lower EC, and what they find is taken where it lowers the price.
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
 #include "lib/order/dissect.h"
 #include "lib/order/methods.h"
+#include "lib/order/metis.h"
+#include "lib/order/polish.h"
 #include "lib/order/region.h"
 #include "lib/order/supervariables.h"
 #include "lib/order/wmf.h"
@@ -36,6 +46,7 @@ namespace {
 
 constexpr int tries_a_round = 16;
 constexpr int restarts_at_first = 16;
+constexpr std::size_t polished_methods = 4;
 constexpr double pass_effort = 10;  // of ordering a graph anew, in the time of amd
 
 // Pseudo-random numbers of one try.
@@ -52,13 +63,24 @@ struct Clock {
   }
 };
 
+// What an order is judged by: the caller's price, or else nothing, and then EC.
+struct Price {
+  double asked = 0;
+  elim::Wide ec = 0;
+  friend bool operator<(const Price& a, const Price& b) {
+    return a.asked != b.asked ? a.asked < b.asked : a.ec < b.ec;
+  }
+};
+
 // What all tries of a round share.
 struct Search {
   const graph::Pattern& pattern;
   const OrderOptions& options;
   graph::Adjacency graph;
-  std::vector<int> stage = {};  // 1 of the variables of `last`
-  Elimination best = {};
+  std::vector<int> stage = {};    // 1 of the variables of `last`
+  graph::Order order = {};        // the best so far
+  Price price = {};               // of it
+  Elimination best = {};          // and it, once tries want to know
   std::vector<double> cost = {};  // running sum of the costs of best's variables
   Clock clock = {};
   double amd_seconds = 0;  // with a score
@@ -69,11 +91,13 @@ bool stopped(const Search& search) {
   return search.options.stop && search.options.stop();
 }
 
-// Whether the budget has time for so many times what amd took.
+// Whether the budget has so many seconds left, or time for so many times what amd took.
+bool lasts(const Search& search, double seconds) {
+  const double budget = search.options.budget.seconds;
+  return budget <= 0 || search.clock.seconds() + seconds < budget;
+}
 bool time_for(const Search& search, double effort) {
-  const double seconds = search.options.budget.seconds;
-  if (stopped(search)) return false;
-  return seconds <= 0 || search.clock.seconds() + effort * search.amd_seconds < seconds;
+  return !stopped(search) && lasts(search, effort * search.amd_seconds);
 }
 
 struct Try {
@@ -83,7 +107,18 @@ struct Try {
   elim::Wide gain = 0;
 };
 
-void take(Search& search, Elimination&& elimination) {
+Price price_of(const Search& search, const graph::Order& order, elim::Wide ec) {
+  const auto& asked = search.options.price;
+  return {asked ? asked(search.pattern, order) : 0, ec};
+}
+
+void take(Search& search, const graph::Order& order, const Price& price) {
+  search.order = order;
+  search.price = price;
+}
+
+void take(Search& search, Elimination&& elimination, const Price& price) {
+  take(search, elimination.order, price);
   search.best = std::move(elimination);
   search.cost.clear();
   double sum = 0;
@@ -203,79 +238,139 @@ graph::Order with_improvements(const Search& search, std::vector<Try>& tries) {
 
 void report(const Search& search, std::string_view how, int tries) {
   if (!search.options.report) return;
-  search.options.report({how, tries, search.clock.seconds(), search.best.ec});
+  search.options.report({how, tries, search.clock.seconds(), search.price.ec, search.price.asked});
 }
 
-// CPU time of a method in that of amd, about, on a large graph.
-double effort(const Ordering& method) {
+constexpr Ordering tuned{"metis+", "METIS, 20 separators and 100 refinements at every level",
+                         tuned_metis};
+
+// CPU time of a method in that of amd, about, on a large graph. That of wmf depends on its width.
+double effort(const Ordering& method, bool wide) {
+  if (method.compute == tuned_metis) return 120;
   if (method.compute == sloan) return 25;
+  if (method.compute == wmf && wide) return 60;
   const std::array around_ten{wmf, metis, scotch, mmd};
   if (std::ranges::find(around_ten, method.compute) != around_ten.end()) return 10;
   return 2;
 }
 
-// Every other method that there is time for; of equals the one that stands first in the table. Only the first, which
-// takes no time, is there in any case. amd is the measure of the others.
-void take_best_method(Search& search) {
+struct Found {
+  graph::Order order;  // empty: there was no time for it
+  Price price;
+};
+
+Found found_by(const Search& search, const Ordering& method) {
+  graph::Order order = elimination_order(method, search.pattern, search.options);
+  const elim::Wide ec = elim::elimination_complexity(search.pattern, order);
+  const Price price = price_of(search, order, ec);
+  return {std::move(order), price};
+}
+
+// Calls work(k) for 0 .. count - 1 on all threads, and begins them in this order.
+template <class Work>
+void in_turn(std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
+    for (std::size_t k = next++; k < count; k = next++) work(k);
+  });
+}
+
+// Takes the best of all other methods that there is time for, the quick ones first; of equals the one that stands first in
+// the table. amd is the measure of the others, and there in any case. Returns the few that are worth polishing.
+std::vector<Found> take_best_method(Search& search) {
   std::vector<const Ordering*> methods;
   for (const Ordering& method : orderings()) {
     if (method.compute != best) methods.push_back(&method);
   }
-  std::vector<Elimination> found(methods.size());
-  const auto find = [&](std::size_t i) {
-    const Ordering& method = *methods[i];
-    if (!found[i].order.empty() || (i > 0 && !time_for(search, effort(method)))) return;
-    found[i] =
-        elimination(search.pattern, elimination_order(method, search.pattern, search.options));
-  };
-  if (search.options.budget.seconds > 0) {
-    const auto measure = std::ranges::find_if(
-        methods, [](const Ordering* method) { return method->compute == amd; });
-    const double start = search.clock.seconds();
-    find(static_cast<std::size_t>(measure - methods.begin()));
-    search.amd_seconds = search.clock.seconds() - start;
+  methods.push_back(&tuned);
+  std::vector<Found> found(methods.size());
+  const auto is_amd = [](const Ordering* method) { return method->compute == amd; };
+  const auto measure =
+      static_cast<std::size_t>(std::ranges::find_if(methods, is_amd) - methods.begin());
+  const double start = search.clock.seconds();
+  found[measure] = found_by(search, *methods[measure]);
+  search.amd_seconds = search.clock.seconds() - start;
+  const bool wide = is_wide(search.graph, found[measure].price.ec);
+
+  std::vector<std::size_t> turn(methods.size());
+  std::iota(turn.begin(), turn.end(), 0);
+  std::ranges::stable_sort(turn, {}, [&](std::size_t k) { return effort(*methods[k], wide); });
+  in_turn(turn.size(), [&](std::size_t k) {
+    const Ordering& method = *methods[turn[k]];
+    if (turn[k] != measure && time_for(search, effort(method, wide)))
+      found[turn[k]] = found_by(search, method);
+  });
+  for (Found& method : found) {
+    if (method.order.empty()) method.price = {std::numeric_limits<double>::infinity(), 0};
   }
-  tbb::parallel_for(std::size_t{0}, methods.size(), find);
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (i > 0 && (found[i].order.empty() || found[i].ec >= search.best.ec)) continue;
-    take(search, std::move(found[i]));
-    report(search, methods[i]->name, 0);
+  std::iota(turn.begin(), turn.end(), 0);
+  std::ranges::stable_sort(
+      turn, [&](std::size_t a, std::size_t b) { return found[a].price < found[b].price; });
+  Found& least = found[turn.front()];
+  take(search, least.order, least.price);
+  report(search, methods[turn.front()]->name, 0);
+  std::vector<Found> first;
+  for (const std::size_t k : turn) {
+    if (first.size() < polished_methods && found[k].price.ec < 2 * least.price.ec)
+      first.push_back(std::move(found[k]));
+  }
+  return first;
+}
+
+// What is best before polishing need not be after it.
+void take_best_polished(Search& search, const std::vector<Found>& methods) {
+  PolishOptions options;
+  options.last = search.options.last;
+  options.stop = [&](double seconds) { return stopped(search) || !lasts(search, seconds); };
+  for (const Found& method : methods) {
+    if (!time_for(search, 1)) return;
+    Polished polished = polish(search.pattern, method.order, options);
+    const Price price = price_of(search, polished.order, polished.ec);
+    if (!(price < search.price)) continue;
+    take(search, polished.order, price);
+    report(search, "polish", 0);
   }
 }
 
 // Whether the round improved the best.
 void take_round(Search& search, std::vector<Try>& tries, int done) {
   if (std::ranges::none_of(tries, [](const Try& found) { return found.gain > 0; })) return;
-  const elim::Wide before = search.best.ec;
   const auto restarted =
       std::max_element(tries.begin(), tries.end(), [](const Try& a, const Try& b) {
         return (a.order.empty() ? 0 : a.gain) < (b.order.empty() ? 0 : b.gain);
       });
   const graph::Order fresh = restarted->order;
   Elimination improved = elimination(search.pattern, with_improvements(search, tries));
+  Price price = price_of(search, improved.order, improved.ec);
   std::string_view how = "local";
   if (!fresh.empty()) {
     Elimination other = elimination(search.pattern, fresh);
-    if (other.ec < improved.ec) {
+    if (const Price its = price_of(search, other.order, other.ec); its < price) {
       improved = std::move(other);
+      price = its;
       how = "restart";
     }
   }
-  if (improved.ec >= before) return;
-  take(search, std::move(improved));
+  if (!(price < search.price)) return;
+  take(search, std::move(improved), price);
   report(search, how, done);
 }
 
 }  // namespace
 
 graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
+  const Clock clock;
   Search search{pattern, options, graph::adjacency(pattern)};
+  search.clock = clock;
   search.stage.assign(pattern.variables(), 0);
   for (Index j : options.last) search.stage.at(j) = 1;
-  take_best_method(search);
+  const std::vector<Found> methods = take_best_method(search);
   if (pattern.variables() == 0) return {};
-  search.wide = options.last.empty() && is_wide(search.graph, search.best.ec);
+  take_best_polished(search, methods);
   const Budget& budget = options.budget;
+  if (!time_for(search, 1)) return std::move(search.order);
+  take(search, elimination(pattern, search.order), search.price);
+  search.wide = options.last.empty() && is_wide(search.graph, search.price.ec);
   const auto time_left = [&] { return time_for(search, 0); };
   const auto tries_left = [&](int done) { return budget.seconds > 0 || done < budget.tries; };
   for (int done = 0; tries_left(done) && time_left(); done += tries_a_round) {
@@ -285,7 +380,7 @@ graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
     });
     take_round(search, tries, done + tries_a_round);
   }
-  return std::move(search.best.order);
+  return std::move(search.order);
 }
 
 }  // namespace sg::order::methods

@@ -62,9 +62,8 @@ std::array<idx_t, METIS_NOPTIONS> options_of(std::uint64_t seed) {
   return options;
 }
 
-graph::Order order_part(Part& part, std::uint64_t seed) {
+graph::Order order_part(Part& part, std::array<idx_t, METIS_NOPTIONS> options) {
   idx_t n = part.adjacency.size();
-  auto options = options_of(seed);
   const bool alike = std::equal(part.dim.begin() + 1, part.dim.end(), part.dim.begin());
   graph::Order order(n);
   graph::Order position(n);
@@ -96,10 +95,18 @@ Separation metis_separation(const Piece& piece, std::uint64_t seed) {
   return {side.begin(), side.end()};
 }
 
+graph::Order tuned_metis(const graph::Pattern& pattern, const OrderOptions& options) {
+  auto tuned = options_of(options.seed);
+  tuned[METIS_OPTION_NSEPS] = 20;
+  tuned[METIS_OPTION_NITER] = 100;
+  return order_by_parts(pattern, [&](Part& part) { return order_part(part, tuned); });
+}
+
 namespace methods {
 
 graph::Order metis(const graph::Pattern& pattern, const OrderOptions& options) {
-  return order_by_parts(pattern, [&](Part& part) { return order_part(part, options.seed); });
+  return order_by_parts(pattern,
+                        [&](Part& part) { return order_part(part, options_of(options.seed)); });
 }
 
 }  // namespace methods

@@ -25,15 +25,16 @@ struct Budget {
   int tries = 200;
   double seconds = 0;
 };
-// "2.5": seconds; "500t": tries. Throws a usage Error for anything else.
-Budget parse_budget(std::string_view text);
+// "2.5": seconds; "500t": tries. Throws a usage Error, about this option, for anything else.
+Budget parse_budget(std::string_view text, std::string_view option = "--budget");
 
 // A better order, as soon as an anytime ordering has found it.
 struct Improvement {
-  std::string_view how;  // a method's name, "restart" or "local"
+  std::string_view how;  // a method's name, "polish", "restart" or "local"
   int tries;             // so far
   double seconds;        // so far
   elim::Wide ec;
+  double price;  // OrderOptions::price; 0 without one
 };
 
 // Seeds that users give count from 1, as those of worlds do; draws from 0, by which ties go as the
@@ -49,6 +50,8 @@ struct OrderOptions {
   std::vector<Index> file_order;  // all variables as the file lists them; empty: as numbered
   std::vector<bool> landmark;     // of every variable; empty: none is
   Budget budget;                  // of best
+  // What best minimizes instead of EC; may be empty. Called by several threads at a time.
+  std::function<double(const graph::Pattern&, const graph::Order&)> price;
   std::function<void(const Improvement&)> report;  // of best; may be empty
   std::function<bool()>
       stop;  // of best, and may be empty; asked by any thread: is the best so far enough?

@@ -62,6 +62,42 @@ void end_row(graph::Lists<>& rows) {
   if (!rows.open().empty()) rows.close();
 }
 
+// Calls function(child) for every subtree that hangs below R, ascending.
+template <class Function>
+void each_hanging(const Elimination& e, const Region& region, Function function) {
+  std::vector<Index> hanging;
+  for (const Index k : region.inside) {
+    for_children(e, k, [&](Index child) {
+      if (!std::binary_search(region.inside.begin(), region.inside.end(), child))
+        hanging.push_back(child);
+    });
+  }
+  std::ranges::sort(hanging);
+  for (const Index child : hanging) function(child);
+}
+
+void add_own_rows(const Elimination& e, Index k, graph::Lists<>& rows) {
+  for (Index r = first_row(e, k); r < e.pattern.rows.size() && e.pattern.rows[r][0] == k; ++r) {
+    rows.add(e.pattern.rows[r]);
+  }
+}
+
+// Renames a region's positions in its rows, fills in dimensions and EC, and returns the positions of B.
+std::vector<Index> name_positions(const Elimination& e, Region& region) {
+  graph::Lists<>& rows = region.pattern.rows;
+  std::vector<Index> positions = region.inside;
+  positions.insert(positions.end(), rows.items.begin(), rows.items.end());
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  for (Index k : positions) region.pattern.dim.push_back(e.pattern.dim[k]);
+  for (Index& k : rows.items) {
+    const auto at = std::lower_bound(positions.begin(), positions.end(), k);
+    k = static_cast<Index>(at - positions.begin());
+  }
+  for (Index k : region.inside) region.ec += elim::elimination_cost(e.pattern.dim[k], e.count[k]);
+  return {positions.begin() + static_cast<std::ptrdiff_t>(region.inside.size()), positions.end()};
+}
+
 // The rows of R, in positions: those that R eliminates, and the separators of what hangs below it.
 graph::Lists<> region_rows(const Elimination& e, const std::vector<Index>& inside) {
   graph::Lists<> rows;
@@ -75,9 +111,7 @@ graph::Lists<> region_rows(const Elimination& e, const std::vector<Index>& insid
     end_row(rows);
   };
   for (Index k : inside) {
-    for (Index r = first_row(e, k); r < e.pattern.rows.size() && e.pattern.rows[r][0] == k; ++r) {
-      rows.add(e.pattern.rows[r]);
-    }
+    add_own_rows(e, k, rows);
     for_children(e, k, hanging);
   }
   return rows;
@@ -104,18 +138,55 @@ Elimination elimination(const graph::Pattern& pattern, const graph::Order& order
 Region region(const Elimination& e, Index root, Index size) {
   assert(0 <= root && root < static_cast<Index>(e.parent.size()) && size > 0);
   Region result{root, top_of_subtree(e, root, size), {}, 0};
-  graph::Lists<>& rows = result.pattern.rows;
-  rows = region_rows(e, result.inside);
-  std::vector<Index> positions = result.inside;
-  positions.insert(positions.end(), rows.items.begin(), rows.items.end());
-  std::sort(positions.begin(), positions.end());
-  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
-  for (Index k : positions) result.pattern.dim.push_back(e.pattern.dim[k]);
-  for (Index& k : rows.items) {
-    const auto at = std::lower_bound(positions.begin(), positions.end(), k);
-    k = static_cast<Index>(at - positions.begin());
+  result.pattern.rows = region_rows(e, result.inside);
+  name_positions(e, result);
+  return result;
+}
+
+std::vector<Region> cut(const Elimination& e, Index size, const std::vector<bool>& left_out) {
+  std::vector<Region> regions;
+  std::vector<Index> roots;
+  for (Index k = 0; k < static_cast<Index>(e.parent.size()); ++k) {
+    const Index p = e.parent[k];
+    if (!left_out[k] && (p < 0 || left_out[p])) roots.push_back(k);
   }
-  for (Index k : result.inside) result.ec += elim::elimination_cost(e.pattern.dim[k], e.count[k]);
+  std::vector<Index> region_of(e.parent.size(), -1);  // of a root
+  for (std::size_t at = 0; at < roots.size(); ++at) {
+    region_of[roots[at]] = static_cast<Index>(at);
+    regions.push_back({roots[at], top_of_subtree(e, roots[at], size), {}, 0});
+    each_hanging(e, regions.back(), [&](Index child) { roots.push_back(child); });
+  }
+  // From below: what hangs below a region has its separator.
+  graph::Lists<> separators;  // of the last region first
+  const auto last = static_cast<Index>(regions.size()) - 1;
+  for (Index at = last; at >= 0; --at) {
+    Region& part = regions[at];
+    for (const Index k : part.inside) add_own_rows(e, k, part.pattern.rows);
+    each_hanging(e, part, [&](Index child) {
+      const auto separator = separators[last - region_of[child]];
+      if (!separator.empty()) part.pattern.rows.add(separator);
+    });
+    separators.add(name_positions(e, part));
+  }
+  return regions;
+}
+
+graph::Order recut(const Elimination& e, const std::vector<Region>& regions,
+                   const std::vector<graph::Order>& orders) {
+  graph::Order result = e.order;
+  std::vector<Index> begin = e.first;  // of a root's subtree, in the new order
+  for (std::size_t at = 0; at < regions.size(); ++at) {
+    const Region& part = regions[at];
+    Index place = begin[part.root];
+    each_hanging(e, part, [&](Index child) {
+      begin[child] = place;
+      place += child - e.first[child] + 1;
+    });
+    for (std::size_t k = 0; k < part.inside.size(); ++k) {
+      const std::size_t next = orders[at].empty() ? k : static_cast<std::size_t>(orders[at][k]);
+      result[place++] = e.order[part.inside[next]];
+    }
+  }
   return result;
 }
 

@@ -33,6 +33,15 @@ struct Region {
 // Up to `size` positions at the top of the root's subtree, those with the largest fronts first.
 Region region(const Elimination& elimination, Index root, Index size);
 
+// The whole elimination, cut into regions of up to `size` positions: from the roots down, each the top of what hangs below
+// others. Positions marked in `left_out`, with those above them, are in none. All may be reordered at a time: none has
+// any part in another's pattern but by what hangs below, which stays as a whole.
+std::vector<Region> cut(const Elimination& elimination, Index size,
+                        const std::vector<bool>& left_out);
+// The elimination order with every region of a cut reordered, orders[k] of regions[k]. Empty: as it is.
+graph::Order recut(const Elimination& elimination, const std::vector<Region>& regions,
+                   const std::vector<graph::Order>& orders);
+
 // EC of R under an order of region.pattern that has R before B.
 elim::Wide region_ec(const Region& region, const graph::Order& order);
 

@@ -148,22 +148,27 @@ std::vector<bool> childless(std::span<const Index> parent) {
   return result;
 }
 
+CliqueOutline clique_outline(const elim::BayesTree& tree, bool relaxed) {
+  CliqueOutline result;
+  result.target.resize(tree.cliques());
+  std::iota(result.target.begin(), result.target.end(), 0);
+  if (relaxed) merge_into_parents(tree, result.target);
+  result.clique = number_cliques(tree, result.target, result.tree);
+  sum_up(tree, result.clique, result.target, result.tree);
+  return result;
+}
+
 CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order, bool relaxed) {
   const elim::OrderedPattern by_position = elim::ordered(pattern, order);
   elim::Symbolic symbolic{by_position.dim, elim::elimination_tree(by_position), {}};
   symbolic.count = elim::column_counts(by_position, symbolic.parent);
   const elim::BayesTree tree = elim::bayes_tree(symbolic);
-  std::vector<Index> target(tree.cliques());
-  std::iota(target.begin(), target.end(), 0);
-  if (relaxed) merge_into_parents(tree, target);
-
-  CliqueTree result;
-  const std::vector<Index> clique = number_cliques(tree, target, result);
-  sum_up(tree, clique, target, result);
-  list_variables(tree, order, target, clique, elim::clique_separators(by_position, tree), result);
-  place_rows(pattern, result);
-  assert(graph::is_permutation(result.frontals.items, pattern.variables()));
-  return result;
+  CliqueOutline cliques = clique_outline(tree, relaxed);
+  list_variables(tree, order, cliques.target, cliques.clique,
+                 elim::clique_separators(by_position, tree), cliques.tree);
+  place_rows(pattern, cliques.tree);
+  assert(graph::is_permutation(cliques.tree.frontals.items, pattern.variables()));
+  return std::move(cliques.tree);
 }
 
 }  // namespace sg::solve

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/elim/bayes_tree.h"
 #include "lib/graph/pattern.h"
 
 namespace sg::solve {
@@ -29,6 +30,15 @@ struct CliqueTree {
 
   Index cliques() const { return static_cast<Index>(parent.size()); }
 };
+
+// Cliques before their variables are listed, which takes the space of all of them together.
+struct CliqueOutline {
+  std::vector<Index>
+      target;  // of every clique of the Bayes tree, the one there that it joins; itself where it stays
+  std::vector<Index> clique;  // and what that is in `tree`
+  CliqueTree tree;            // parents and dimensions alone
+};
+CliqueOutline clique_outline(const elim::BayesTree& tree, bool relaxed = true);
 
 // Whether each clique of a tree has none below it. parent: -1 at a root.
 std::vector<bool> childless(std::span<const Index> parent);

@@ -13,6 +13,7 @@
 #include "lib/solve/assembly.h"
 #include "lib/solve/factorize.h"
 #include "lib/solve/pivots.h"
+#include "lib/solve/update_stacks.h"
 
 namespace sg::solve {
 namespace {
@@ -108,38 +109,12 @@ void plan_tasks(Elimination& e, int threads) {
   }
 }
 
-// Places the updates of a task's cliques from `base` on; returns where they end.
-Offset plan_updates(Elimination& e, const Elimination::Task& task, const std::vector<int>& depth,
-                    Offset base) {
-  Offset top[2] = {0, 0};
-  Offset peak[2] = {0, 0};
-  for (Index c = task.first; c <= task.last; ++c) {
-    const int side = depth[c] % 2;
-    if (e.u_at[c] >= 0) {
-      e.u_at[c] = top[side];
-      top[side] += e.front(c).size_u();
-    }
-    peak[side] = std::max(peak[side], top[side]);
-    for (Index child : e.children[c]) {
-      if (child >= task.first && e.u_at[child] >= 0)
-        top[1 - side] = std::min(top[1 - side], e.u_at[child]);
-    }
-  }
-  for (Index c = task.first; c <= task.last; ++c) {
-    if (e.u_at[c] >= 0) e.u_at[c] += base + (depth[c] % 2 == 0 ? 0 : peak[0]);
-  }
-  return base + peak[0] + peak[1];
-}
-
 void plan_storage(const factor::LinearSystem& system, Elimination& e) {
   const Index cliques = e.tree.cliques();
   e.l_at.resize(cliques);
   Offset l = 0;
   int rows = 0;
-  std::vector<int> depth(cliques, 0);
-  for (Index c = cliques - 1; c >= 0; --c) {
-    if (e.tree.parent[c] >= 0) depth[c] = depth[e.tree.parent[c]] + 1;
-  }
+  const std::vector<int> depth = depths(e.tree.parent);
   for (Index c = 0; c < cliques; ++c) {
     const Front front = e.front(c);
     e.l_at[c] = l;
@@ -148,7 +123,11 @@ void plan_storage(const factor::LinearSystem& system, Elimination& e) {
     e.scratch_size = std::max(e.scratch_size, factorization_work(kernels(), front.f, front.n));
   }
   Offset u = 0;
-  for (const Elimination::Task& task : e.tasks) u = plan_updates(e, task, depth, u);
+  for (const Elimination::Task& task : e.tasks) {
+    u = place_updates(
+        task.first, task.last, e.children, depth, u, [&](Index c) { return e.front(c).size_u(); },
+        e.u_at);
+  }
   e.conditionals = Arena(l + lane);
   e.updates = Arena(u + lane);
 

@@ -13,10 +13,6 @@ constexpr int panel_width = 128;
 constexpr int rows_at_once =
     384;  // of a panel: three eighths of a megabyte, which a cache of second level holds
 
-bool is_large(int f, int n) {
-  return f >= 16 && n >= 768;
-}
-
 // Calls work(first, last) for all tiles, some at a time.
 template <class Work>
 void each_block(int tiles, int at_once, bool parallel, Work&& work) {
@@ -31,6 +27,10 @@ void each_block(int tiles, int at_once, bool parallel, Work&& work) {
 }
 
 }  // namespace
+
+bool is_large(int f, int n) {
+  return f >= 16 && n >= 768;
+}
 
 std::size_t panel_work(const Kernels& kernel, int n, int width) {
   const std::size_t w = width;

@@ -13,6 +13,9 @@
 
 namespace sg::solve {
 
+// Whether a front of f frontal and n rows is done by panels.
+bool is_large(int f, int n);
+
 // Numbers of `work` that a front of f frontal and n rows needs; 0 for a small one.
 std::size_t factorization_work(const Kernels& kernel, int f, int n);
 

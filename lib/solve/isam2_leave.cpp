@@ -182,7 +182,7 @@ void leave_clique(Isam2& isam, Index c, bool keep, Isam2Report& report) {
 
 }  // namespace
 
-graph::Order order_after(std::string_view method, const graph::Pattern& pattern,
+graph::Order order_after(const Isam2Options& isam_options, const graph::Pattern& pattern,
                          std::span<const Index> first, std::vector<Index> last) {
   const Index n = pattern.variables();
   std::vector<Index> number(n, 0);
@@ -234,7 +234,9 @@ graph::Order order_after(std::string_view method, const graph::Pattern& pattern,
     rest.rows.add(row);
   }
 
+  const std::string& method = isam_options.ordering;
   order::OrderOptions options;
+  options.budget = isam_options.order_budget;
   options.last = of_rest;
   graph::Order order = order::elimination_order(method, pattern, options);
   order.resize(first.size());

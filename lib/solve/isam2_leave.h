@@ -30,9 +30,9 @@
 
 namespace sg::solve {
 
-// An order that begins with `first` and ends with `last`: what is between is ordered by the method for what remains
+// An order that begins with `first` and ends with `last`: what is between is ordered by the options' ordering for what remains
 // when `first` has been eliminated.
-graph::Order order_after(std::string_view method, const graph::Pattern& pattern,
+graph::Order order_after(const Isam2Options& options, const graph::Pattern& pattern,
                          std::span<const Index> first, std::vector<Index> last);
 
 // Between begin_update and plan_top: `isam.leaving` says of these variables that they leave. Marks cliques that hold

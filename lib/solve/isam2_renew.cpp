@@ -12,7 +12,10 @@ bool is_worn(const Isam2& isam, Renewal& renewal) {
   renewal.asked = now;
   Snapshot snapshot;
   take_snapshot(isam, false, snapshot);
-  const graph::Order order = order::elimination_order(isam.options.ordering, snapshot.pattern);
+  order::OrderOptions options;
+  options.budget = isam.options.order_budget;
+  const graph::Order order =
+      order::elimination_order(isam.options.ordering, snapshot.pattern, options);
   const CliqueTree tree = clique_tree(snapshot.pattern, order, false);
   elim::Wide fresh = 0;
   for (const std::int64_t ec : tree.ec) fresh += static_cast<elim::Wide>(ec);

@@ -71,6 +71,7 @@ void take_out(Isam2& isam) {
 graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
   Isam2::Work& work = isam.work;
   order::OrderOptions options;
+  options.budget = isam.options.order_budget;
   for (Index r : new_rows) {
     for (Index j : pattern_of(isam).rows[r]) {
       if (!isam.leaving[j]) options.last.push_back(work.local[j]);
@@ -83,9 +84,8 @@ graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
   for (Index k = 0; k < work.pattern.variables(); ++k) {
     if (isam.leaving[work.variables[k]]) first.push_back(k);
   }
-  return first.empty()
-             ? order::elimination_order(isam.options.ordering, work.pattern, options)
-             : order_after(isam.options.ordering, work.pattern, first, std::move(options.last));
+  return first.empty() ? order::elimination_order(isam.options.ordering, work.pattern, options)
+                       : order_after(isam.options, work.pattern, first, std::move(options.last));
 }
 
 // Adds clique k of the top's tree to the smoother's: work.variables and work.rows say what its

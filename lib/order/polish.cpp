@@ -1,0 +1,129 @@
+#include "lib/order/polish.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "lib/order/dissect.h"
+#include "lib/order/region.h"
+#include "lib/order/wmf.h"
+
+namespace sg::order {
+namespace {
+
+constexpr std::array sizes{64, 512, 4096};  // of regions, one sweep each, and again
+constexpr double least_gain = 3e-4;         // of EC, by one sweep through all sizes
+
+// Of R and B, as fill_graph.h has parts: no two of B are joined.
+graph::Adjacency part_graph(const Region& region) {
+  const auto inner = static_cast<Index>(region.inside.size());
+  std::vector<std::pair<Index, Index>> edges;
+  for (Index r = 0; r < region.pattern.rows.size(); ++r) {
+    const auto row = region.pattern.rows[r];
+    for (const Index u : row) {
+      if (u >= inner) continue;
+      for (const Index v : row) {
+        if (u == v) continue;
+        edges.emplace_back(u, v);
+        if (v >= inner) edges.emplace_back(v, u);
+      }
+    }
+  }
+  std::ranges::sort(edges);
+  const auto twice = std::ranges::unique(edges);
+  edges.erase(twice.begin(), twice.end());
+  graph::Adjacency graph;
+  std::size_t at = 0;
+  for (Index v = 0; v < region.pattern.variables(); ++v) {
+    for (; at < edges.size() && edges[at].first == v; ++at) graph.items.push_back(edges[at].second);
+    graph.close();
+  }
+  return graph;
+}
+
+// Whether a region is one clique with what is around it: nothing can be gained there.
+bool is_clique(const graph::Adjacency& graph, Index inner) {
+  const auto joined = static_cast<std::size_t>(graph.size()) - 1;
+  for (Index v = 0; v < inner; ++v) {
+    if (graph[v].size() < joined) return false;
+  }
+  return true;
+}
+
+// A better order of a region; empty if none was found.
+graph::Order reordered(const Region& region) {
+  const auto inner = static_cast<Index>(region.inside.size());
+  if (inner < 2) return {};
+  const graph::Adjacency graph = part_graph(region);
+  if (is_clique(graph, inner)) return {};
+  const std::vector<int>& dim = region.pattern.dim;
+  elim::Wide best = region.ec;
+  graph::Order order;
+  GreedyResult greedy = greedy_fill_of_part(graph, dim, inner);
+  if (greedy.ec < best) {
+    best = greedy.ec;
+    order = std::move(greedy.order);
+  }
+  if (is_wide(graph, best)) {
+    Dissected dissected = nested_dissection(graph, dim, inner, 0);
+    if (dissected.ec < best) order = std::move(dissected.order);
+  }
+  return order;
+}
+
+bool stopped(const PolishOptions& options, double seconds) {
+  return options.stop && options.stop(seconds);
+}
+
+// The order after a sweep.
+graph::Order swept(const Elimination& elimination, Index size, const std::vector<bool>& left_out,
+                   const PolishOptions& options) {
+  const std::vector<Region> regions = cut(elimination, size, left_out);
+  std::vector<graph::Order> orders(regions.size());
+  tbb::parallel_for(std::size_t{0}, regions.size(), [&](std::size_t k) {
+    if (!stopped(options, 0)) orders[k] = reordered(regions[k]);
+  });
+  return recut(elimination, regions, orders);
+}
+
+// Of `last`, and all that the tree has above them.
+std::vector<bool> positions_left_out(const Elimination& elimination,
+                                     const std::vector<bool>& is_last) {
+  std::vector<bool> out(is_last.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (is_last[elimination.order[k]]) out[k] = true;
+    if (const Index p = elimination.parent[k]; out[k] && p >= 0) out[p] = true;
+  }
+  return out;
+}
+
+}  // namespace
+
+Polished polish(const graph::Pattern& pattern, const graph::Order& order,
+                const PolishOptions& options) {
+  std::vector<bool> is_last(order.size(), false);
+  for (const Index j : options.last) is_last.at(j) = true;
+  const auto begin = std::chrono::steady_clock::now();
+  Elimination best = elimination(pattern, order);
+  // A sweep's parts that no stop can cut short take about twice as long as this.
+  const std::chrono::duration<double> alone = std::chrono::steady_clock::now() - begin;
+  double before = elim::to_double(best.ec);
+  for (int sweep = 0; sweep < options.sweeps && !best.order.empty(); ++sweep) {
+    if (stopped(options, 2 * alone.count())) break;
+    const std::size_t round = static_cast<std::size_t>(sweep) % sizes.size();
+    best =
+        elimination(pattern, swept(best, sizes[round], positions_left_out(best, is_last), options));
+    if (round + 1 < sizes.size()) continue;
+    const double after = elim::to_double(best.ec);
+    if (after > (1 - least_gain) * before) break;
+    before = after;
+  }
+  // A postorder may have put some of `last` before others.
+  std::ranges::stable_partition(best.order, [&](Index j) { return !is_last[j]; });
+  return {std::move(best.order), best.ec};
+}
+
+}  // namespace sg::order
