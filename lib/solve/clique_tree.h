@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct CliqueTree {
   std::vector<int> frontal_dim;    // C, scalars
   std::vector<int> separator_dim;  // C, scalars
   std::vector<std::int64_t> ec;    // C, its share of EC_BT
+  std::vector<Index> merged;       // C: how many cliques of the Bayes tree it is made of
   std::vector<Index> row_clique;   // m: where every row is assembled, -1 for an empty row
 
   Index cliques() const { return static_cast<Index>(parent.size()); }
@@ -33,8 +35,9 @@ struct CliqueTree {
 // Whether each clique of a tree has none below it. parent: -1 at a root.
 std::vector<bool> childless(std::span<const Index> parent);
 
-// relaxed: whether cliques may be merged; without, they are the Bayes tree's.
+// A clique of fewer rows than `relaxed_from` stays by itself; with `never`, they are the Bayes tree's.
+constexpr int never = std::numeric_limits<int>::max();
 CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order,
-                       bool relaxed = true);
+                       int relaxed_from = 0);
 
 }  // namespace sg::solve

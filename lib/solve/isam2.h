@@ -69,6 +69,7 @@ struct Isam2Options {
   int relinearize_skip = 1;            // relinearize in every so-manieth update; 0: never
   double wildfire_threshold = 0.001;   // alpha: smallest change of a step that is passed down
   std::string ordering{order::default_ordering};
+  int relaxed_from = 64;  // rows of a clique that may join its parent (clique_tree.h)
 };
 
 struct Isam2 {
