@@ -282,6 +282,8 @@ void run_file(const cmd::Command& command, const Options& options, const std::st
   for (const std::string& ordering : options.orderings) {
     solve::Isam2Options isam = options.isam;
     isam.ordering = ordering;
+    // What leaves is told clique by clique, as the Bayes tree has them.
+    if (lets_go(options)) isam.relaxed_from = solve::never;
     solve::WindowOptions window = options.window;
     window.budget = static_cast<elim::Wide>(options.budget);
     solve::Isam2Window state =

@@ -16,6 +16,7 @@
 #include "cmd/common/table.h"
 #include "cmd/solving/certificate.h"
 #include "cmd/solving/plan.h"
+#include "cmd/solving/prior.h"
 #include "cmd/solving/residuals.h"
 #include "cmd/solving/robust.h"
 #include "cmd/solving/timing.h"
@@ -48,6 +49,7 @@ struct Options {
   bool certify = false;
   std::string weights;  // FILE, or empty
   std::vector<Id> fixed;
+  std::vector<std::string> priors;
   std::string start;
   bool keep = false;
 };
@@ -73,6 +75,9 @@ void add_options(cmd::Command& command, Options& options) {
       ->allow_extra_args(false)
       ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
       ->option_text("ID,...");
+  app.add_option("--prior", options.priors, "Measure vertex ID: numbers, standard deviations")
+      ->allow_extra_args(false)
+      ->option_text("ID:X,...:S,...");
   cmd::add_methods(command, options.method);
   cmd::add_budget(command.app, options.method.budget);
   app.add_option("--backend", options.backend, "Eliminate by " + solve::backend_names())
@@ -203,7 +208,9 @@ void tell_starts(const std::vector<solve::Candidate>& starts) {
   cmd::say(line);
 }
 
-void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem) {
+// own: bytes of the graph's own text, without what --prior adds.
+void solve(const cmd::Command& command, const Options& options, const factor::Problem& problem,
+           Offset own) {
   const auto begin = std::chrono::steady_clock::now();
   cmd::stage("start");
   std::vector<solve::Candidate> starts = candidates(options, problem);
@@ -252,8 +259,9 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
     batch.loss.share = weight;
     print_residuals(options, options.weights, problem, values, batch.loss);
   }
-  cmd::write_filtered(command, options.output, graph,
-                      cmd::estimate_changes(problem, values, solving::moved(problem)));
+  formats::Changes changes = cmd::estimate_changes(problem, values, solving::moved(problem));
+  solving::leave_out_priors(graph, own, changes);
+  cmd::write_filtered(command, options.output, graph, std::move(changes));
   tell(command, result, cmd::seconds_since(begin));
 }
 
@@ -314,12 +322,15 @@ void run(const cmd::Command& command, const Options& options) {
   }
   for (const std::string& path : options.inputs.paths) {
     Graph graph = cmd::read(options.inputs, path);
+    const auto own = static_cast<Offset>(graph.text.view.size());
+    if (!options.priors.empty())
+      graph = solving::with_priors(graph, options.priors, options.inputs.options);
     for (const Id id : options.fixed) graph.fixed[cmd::vertex_of(graph, "--fix", id)] = true;
     cmd::stage("start");
     const factor::Problem problem = factor::make_problem(graph);
     const bool looks = options.chi2 || options.residuals || options.certify || times;
     if (!looks) {
-      solve(command, options, problem);
+      solve(command, options, problem, own);
       continue;
     }
     const factor::Loss loss = solving::loss(options.robust, graph);

@@ -7,6 +7,17 @@
 namespace sg::elim {
 namespace {
 
+// Whether every vertex comes before its parent.
+[[maybe_unused]] bool is_forest(const std::vector<Index>& parent) {
+  const auto n = static_cast<Index>(parent.size());
+  for (Index k = 0; k < n; ++k) {
+    if (parent[k] != -1 && (parent[k] <= k || parent[k] >= n)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::vector<Index> positions(const graph::Order& order, Index n) {
   std::vector<Index> position(n, -1);
   if (static_cast<Index>(order.size()) != n)
@@ -19,17 +30,6 @@ std::vector<Index> positions(const graph::Order& order, Index n) {
   }
   return position;
 }
-
-// Whether every vertex comes before its parent.
-[[maybe_unused]] bool is_forest(const std::vector<Index>& parent) {
-  const auto n = static_cast<Index>(parent.size());
-  for (Index k = 0; k < n; ++k) {
-    if (parent[k] != -1 && (parent[k] <= k || parent[k] >= n)) return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 OrderedPattern ordered(const graph::Pattern& pattern, const graph::Order& order) {
   const Index n = pattern.variables();

@@ -15,6 +15,9 @@
 
 namespace sg::elim {
 
+// The position of every variable. Throws std::invalid_argument if `order` is no permutation of 0 .. n - 1.
+std::vector<Index> positions(const graph::Order& order, Index n);
+
 // The pattern with variables renumbered by position: variable order[k] becomes k. Rows hold
 // ascending positions, and the rows are grouped by the position of their first variable (Davis's
 // "head/next" lists, laid flat).

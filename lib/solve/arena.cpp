@@ -16,7 +16,7 @@ constexpr std::size_t huge_page = std::size_t{1} << 21;
 
 Arena::Arena(std::size_t size) : size_(size) {
   const std::size_t bytes = size * sizeof(double);
-  const std::size_t page = bytes >= 2 * huge_page ? huge_page : line;
+  const std::size_t page = bytes >= huge_page ? huge_page : line;
   const std::size_t rounded = (bytes + page - 1) / page * page;
   numbers_.reset(static_cast<double*>(std::aligned_alloc(page, std::max(rounded, page))));
   if (!numbers_) throw std::bad_alloc();

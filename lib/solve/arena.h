@@ -32,7 +32,7 @@ class Arena {
 // all that one call of grow() added.
 class ChunkedArena {
  public:
-  static constexpr std::int64_t chunk = 1 << 17;  // a megabyte
+  static constexpr std::int64_t chunk = 1 << 18;  // two megabytes: a large page
 
   // At least `size` numbers from now on.
   void grow(std::int64_t size) {

@@ -20,14 +20,18 @@ int place_variables(std::span<const Index> frontals, std::span<const Index> sepa
 bool append_runs(std::span<const Index> variables, std::span<const int> dim,
                  std::span<const int> row_at, int last_row, std::vector<Run>& runs) {
   const std::size_t first = runs.size();
+  runs.resize(first + variables.size() + 1);
+  Run* const begin = runs.data() + first;
+  Run* end = begin;
+  bool ascend = true;
   int from = 0;
   const auto append = [&](int to, int length) {
-    const bool goes_on = runs.size() > first && runs.back().to + runs.back().length == to &&
-                         runs.back().from + runs.back().length == from;
-    if (goes_on) {
-      runs.back().length += length;
+    Run* const last = end - 1;
+    if (end != begin && last->to + last->length == to && last->from + last->length == from) {
+      last->length += length;
     } else {
-      runs.push_back({from, to, length});
+      ascend = ascend && (end == begin || last->to < to);
+      *end++ = {from, to, length};
     }
     from += length;
   };
@@ -40,10 +44,9 @@ bool append_runs(std::span<const Index> variables, std::span<const int> dim,
     }
   }
   append(last_row, 1);
-  const std::span appended = std::span(runs).subspan(first);
-  if (std::ranges::is_sorted(appended, {}, &Run::to)) return true;
-  std::ranges::sort(appended, {}, &Run::to);
-  return false;
+  if (!ascend) std::ranges::sort(begin, end, {}, &Run::to);
+  runs.resize(end - runs.data());
+  return ascend;
 }
 
 void add_child(const Kernels& kernel, const Front& child, std::span<const Run> runs,

@@ -38,4 +38,10 @@ inline bool stays_factor(int f, int s) {
 void add_child(const Kernels& kernel, const Front& child, std::span<const Run> runs,
                const Front& front);
 
+// Sets the front to a child's update: the quicker way to begin its sum, where a child has one.
+inline void start_with(const Kernels& kernel, const Front& child, std::span<const Run> runs,
+                       const Front& front) {
+  kernel.set(front, child.u, child.ld_u(), runs.data(), static_cast<int>(runs.size()));
+}
+
 }  // namespace sg::solve

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,25 +27,29 @@ struct CliqueTree {
   std::vector<int> frontal_dim;    // C, scalars
   std::vector<int> separator_dim;  // C, scalars
   std::vector<std::int64_t> ec;    // C, its share of EC_BT
+  std::vector<Index> merged;       // C: how many cliques of the Bayes tree it is made of
   std::vector<Index> row_clique;   // m: where every row is assembled, -1 for an empty row
 
   Index cliques() const { return static_cast<Index>(parent.size()); }
 };
 
-// Cliques before their variables are listed, which takes the space of all of them together.
+// Whether each clique of a tree has none below it. parent: -1 at a root.
+std::vector<bool> childless(std::span<const Index> parent);
+
+// A clique of fewer rows than `relaxed_from` stays by itself; with `never`, they are the Bayes tree's.
+constexpr int never = std::numeric_limits<int>::max();
+CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order,
+                       int relaxed_from = 0);
+
+// The same before variables are listed, which takes the space of all cliques together: from parents and dimensions of the
+// Bayes tree's cliques alone, children before parents.
 struct CliqueOutline {
   std::vector<Index>
       target;  // of every clique of the Bayes tree, the one there that it joins; itself where it stays
   std::vector<Index> clique;  // and what that is in `tree`
   CliqueTree tree;            // parents and dimensions alone
 };
-CliqueOutline clique_outline(const elim::BayesTree& tree, bool relaxed = true);
-
-// Whether each clique of a tree has none below it. parent: -1 at a root.
-std::vector<bool> childless(std::span<const Index> parent);
-
-// relaxed: whether cliques may be merged; without, they are the Bayes tree's.
-CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order,
-                       bool relaxed = true);
+CliqueOutline clique_outline(std::span<const Index> parent, std::span<const int> frontal_dim,
+                             std::span<const int> separator_dim, int relaxed_from = 0);
 
 }  // namespace sg::solve

@@ -30,6 +30,12 @@ void plan_leaves(Elimination& e) {
 // Where rows and children go in their clique's front.
 void plan_runs(const graph::Pattern& pattern, Elimination& e) {
   const CliqueTree& tree = e.tree;
+  // No more runs than variables and right-hand sides.
+  const std::size_t rows = e.rows.items.size(), children = e.children.items.size();
+  e.row_runs.begin.reserve(rows + 1);
+  e.row_runs.items.reserve(pattern.rows.items.size() + rows);
+  e.child_runs.begin.reserve(children + 1);
+  e.child_runs.items.reserve(tree.separators.items.size() + children);
   std::vector<int> row_at(pattern.variables(), -1);
   for (Index c = 0; c < tree.cliques(); ++c) {
     const int last_row = place_variables(tree.frontals[c], tree.separators[c], pattern.dim, row_at);
@@ -132,10 +138,9 @@ void plan_storage(const factor::LinearSystem& system, Elimination& e) {
   e.updates = Arena(u + lane);
 
   e.scratch_size = std::max<std::size_t>(e.scratch_size, rows + lane);
-  for (Index r = 0; r < system.pattern->rows.size(); ++r) {
-    const std::size_t height = system.height[r];
-    const std::size_t width =
-        height == 0 ? 0 : (system.begin[r + 1] - system.begin[r]) / static_cast<Offset>(height);
+  for (Index i = 0; i < e.row_runs.size(); ++i) {
+    const std::size_t height = system.height[e.rows.items[i]];
+    const std::size_t width = rows_covered(e.row_runs[i]);
     e.scratch_size = std::max(e.scratch_size, width * width + lane + height * (width + lane));
   }
   e.scratch_size = (e.scratch_size + lane - 1) / lane * lane;
@@ -157,19 +162,38 @@ void add_row(const factor::LinearSystem& system, Index r, std::span<const Run> r
   kernel.add(front, scratch, width, runs.data(), static_cast<int>(runs.size()));
 }
 
+// The place in `children` of clique c's child with the largest update, -1 without one.
+Index largest_child(const Elimination& e, Index c) {
+  Index largest = -1;
+  int size = -1;
+  for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i) {
+    const Index child = e.children.items[i];
+    if (e.u_at[child] < 0 || e.tree.separator_dim[child] <= size) continue;
+    largest = i;
+    size = e.tree.separator_dim[child];
+  }
+  return largest;
+}
+
 // Gathers and eliminates one clique; returns how many of its pivots vanished.
 int eliminate_clique(Elimination& e, const factor::LinearSystem& system,
                      std::span<const double> damping, Index c, const Kernels& kernel,
                      double* scratch) {
   const Front front = e.front(c);
-  kernel.clear(front);
+  const Index first = largest_child(e, c);
+  if (first < 0) {
+    kernel.clear(front);
+  } else {
+    start_with(kernel, e.front(e.children.items[first]), e.child_runs[first], front);
+  }
   for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i)
     add_row(system, e.rows.items[i], e.row_runs[i], front, kernel, scratch);
   for (Index i = e.rest.begin[c]; i < e.rest.begin[c + 1]; ++i)
     add_row(system, e.rest.items[i], e.rest_runs[i], front, kernel, scratch);
   if (!damping.empty()) damp(e, c, damping, front);
-  for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i)
-    add_child(kernel, e.front(e.children.items[i]), e.child_runs[i], front);
+  for (Index i = e.children.begin[c]; i < e.children.begin[c + 1]; ++i) {
+    if (i != first) add_child(kernel, e.front(e.children.items[i]), e.child_runs[i], front);
+  }
   const double* const floor = e.floors.data() + e.floor_at[e.tree.frontals[c].front()];
   return factorize(kernel, front, floor, scratch, e.threads);
 }

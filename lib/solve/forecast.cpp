@@ -48,6 +48,23 @@ Separators count_separators(const elim::Links& links, const std::vector<Index>& 
   return result;
 }
 
+// clique_outline wants children before parents.
+CliqueOutline outline_of(const elim::BayesTree& tree) {
+  const Index last = tree.cliques() - 1;
+  std::vector<Index> parent;
+  std::vector<int> frontal, separator;
+  for (Index c = last; c >= 0; --c) {
+    parent.push_back(tree.parent[c] < 0 ? -1 : last - tree.parent[c]);
+    frontal.push_back(static_cast<int>(tree.frontal_dim[c]));
+    separator.push_back(static_cast<int>(tree.total_dim[c] - tree.frontal_dim[c]));
+  }
+  CliqueOutline result = clique_outline(parent, frontal, separator);
+  std::ranges::reverse(result.clique);
+  std::ranges::reverse(result.target);
+  for (Index& c : result.target) c = last - c;
+  return result;
+}
+
 // Of an elimination to come.
 struct Plan {
   elim::BayesTree bayes;
@@ -69,7 +86,7 @@ Plan plan(const graph::Pattern& pattern, const graph::Order& order) {
   for (const Index j : order) symbolic.dim.push_back(pattern.dim[j]);
   symbolic.count = elim::column_counts(links, symbolic.dim, symbolic.parent);
   Plan result{elim::bayes_tree(symbolic), {}, {}, {}, {}};
-  result.outline = clique_outline(result.bayes);
+  result.outline = outline_of(result.bayes);
   result.separators = count_separators(links, symbolic.parent, result.bayes, result.outline);
   result.children = graph::grouped(result.outline.tree.parent, result.cliques());
   result.update_at.assign(result.cliques(), 0);

@@ -74,6 +74,10 @@ struct Kernels {
 
   void (*clear)(const Front& front);
 
+  // front := matrix where its rows and columns `from` go to `to`, 0 elsewhere: what clear and add make of it, in one pass.
+  // Runs are as for add; the last one ends with the front.
+  void (*set)(const Front& front, const double* matrix, int ld, const Run* runs, int count);
+
   // gram := block' block, the full square by column. The block is height x width, by column.
   // `work`: height * (width + lane) numbers; gram has `lane` numbers of slack.
   void (*gram)(const double* block, int height, int width, double* gram, double* work);

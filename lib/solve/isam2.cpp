@@ -58,8 +58,7 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
   }));
   Isam2Report report;
   report.relinearized = begin_update(isam, rows);
-  redo_top(isam, variables, rows, plan_top(isam, variables, rows), report);
-  if (report.undetermined.empty()) report.finite = solve_down(isam);
+  redo_and_solve(isam, variables, rows, plan_top(isam, variables, rows), report);
   return report;
 }
 

@@ -204,8 +204,7 @@ void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::
     plan = plan_top(isam, in.variables, in.rows);
   }
   Isam2Report own;
-  redo_top(isam, in.variables, in.rows, plan, own);
-  if (own.undetermined.empty()) own.finite = solve_down(isam);
+  redo_and_solve(isam, in.variables, in.rows, plan, own);
   report.reeliminated += own.reeliminated;
   report.ec += own.ec;
   report.undetermined.insert(report.undetermined.end(), own.undetermined.begin(),

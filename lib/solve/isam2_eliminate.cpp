@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "lib/solve/assembly.h"
 #include "lib/solve/factorize.h"
 #include "lib/solve/isam2_steps.h"
@@ -6,11 +8,20 @@
 namespace sg::solve {
 namespace {
 
-// Writes the lower triangle of an update above its diagonal, too.
+// Writes the lower triangle of an update above its diagonal, too: by squares, so that no line of memory is met again
+// after it has left the cache.
 void mirror(const Front& front) {
+  const int size = front.n - front.f;
   const std::int64_t ld = front.ld_u();
-  for (int j = 0; j < front.n - front.f; ++j) {
-    for (int i = j + 1; i < front.n - front.f; ++i) front.u[i * ld + j] = front.u[j * ld + i];
+  for (int column = 0; column < size; column += lane) {
+    const int end = std::min(column + lane, size);
+    for (int row = column; row < size; row += lane) {
+      const int last = std::min(row + lane, size);
+      for (int j = column; j < end; ++j) {
+        for (int i = std::max(row, j + 1); i < last; ++i)
+          front.u[i * ld + j] = front.u[j * ld + i];
+      }
+    }
   }
 }
 
@@ -24,21 +35,46 @@ void add_row(Isam2& isam, Index r, int last_row, const Front& front, const Kerne
              static_cast<int>(runs.size()));
 }
 
-void assemble(Isam2& isam, const Isam2Clique& clique, const Front& front, const Kernels& kernel) {
-  const graph::Pattern& pattern = pattern_of(isam);
-  std::vector<int>& row_at = isam.work.row_at;
-  std::vector<Run>& runs = isam.work.runs;
-  const int last_row = place_variables(frontals_of(isam.tree, clique),
-                                       separators_of(isam.tree, clique), pattern.dim, row_at);
-  kernel.clear(front);
-  for (Index r : rows_of(isam.tree, clique)) add_row(isam, r, last_row, front, kernel);
+// The child with the largest update, -1 without one.
+Index largest_child(const Isam2& isam, const Isam2Clique& clique) {
+  Index largest = -1;
+  int size = -1;
   for (Index c = clique.first_child; c >= 0; c = isam.tree.cliques[c].next) {
     const Isam2Clique& child = isam.tree.cliques[c];
-    const Front from = front_of(isam.tree, child);
-    runs.clear();
-    const bool ascend =
-        append_runs(separators_of(isam.tree, child), pattern.dim, row_at, last_row, runs);
-    if (!ascend && from.u) mirror(from);  // an orphan, whose separator has been ordered anew
+    if (child.factor || child.s <= size) continue;
+    largest = c;
+    size = child.s;
+  }
+  return largest;
+}
+
+// The child's front; its runs are put into work.runs.
+Front child_front(Isam2& isam, const Isam2Clique& child, int last_row) {
+  const Front from = front_of(isam.tree, child);
+  isam.work.runs.clear();
+  const bool ascend = append_runs(separators_of(isam.tree, child), pattern_of(isam).dim,
+                                  isam.work.row_at, last_row, isam.work.runs);
+  if (!ascend && from.u) mirror(from);  // an orphan, whose separator has been ordered anew
+  return from;
+}
+
+void assemble(Isam2& isam, const Isam2Clique& clique, const Front& front, const Kernels& kernel) {
+  std::vector<int>& row_at = isam.work.row_at;
+  const std::vector<Run>& runs = isam.work.runs;
+  const int last_row = place_variables(frontals_of(isam.tree, clique),
+                                       separators_of(isam.tree, clique), pattern_of(isam).dim, row_at);
+  const Index first = largest_child(isam, clique);
+  if (first < 0) {
+    kernel.clear(front);
+  } else {
+    const Front from = child_front(isam, isam.tree.cliques[first], last_row);
+    start_with(kernel, from, runs, front);
+  }
+  for (Index r : rows_of(isam.tree, clique)) add_row(isam, r, last_row, front, kernel);
+  for (Index c = clique.first_child; c >= 0; c = isam.tree.cliques[c].next) {
+    if (c == first) continue;
+    const Isam2Clique& child = isam.tree.cliques[c];
+    const Front from = child_front(isam, child, last_row);
     add_child(kernel, from, runs, front);
     if (from.u) continue;
     for (Index j : frontals_of(isam.tree, child)) row_at[j] = -1;

@@ -16,7 +16,7 @@ bool is_worn(const Isam2& isam, Renewal& renewal) {
   options.budget = isam.options.order_budget;
   const graph::Order order =
       order::elimination_order(isam.options.ordering, snapshot.pattern, options);
-  const CliqueTree tree = clique_tree(snapshot.pattern, order, false);
+  const CliqueTree tree = clique_tree(snapshot.pattern, order, never);
   elim::Wide fresh = 0;
   for (const std::int64_t ec : tree.ec) fresh += static_cast<elim::Wide>(ec);
   if (renewal.budget > 0 && fresh > renewal.budget) return false;

@@ -25,17 +25,17 @@ Index relinearize(Isam2& isam);
 void mark_to_root(Isam2& isam, Index c);
 void mark_all(Isam2& isam);
 
-// Step 3, algorithm 6 (isam2_top.cpp). Takes the marked cliques out, and eliminates their variables
+// Step 3, algorithm 6 (isam2_top.cpp), and 4. Takes the marked cliques out, and eliminates their variables
 // and the new ones again: rows that the cliques held, the new ones, and what the orphans pass up. The
-// new cliques are left in work.made, children before parents. Reports reeliminated and undetermined
-// variables.
+// new cliques are left in work.made, children before parents. Then solves down, if nothing is undetermined. Reports all
+// but how many variables moved.
 //
 // The plan says which cliques that would make, in numbers of work.variables, and changes nothing in the
 // tree; it marks all cliques where many are. Where more cliques have been marked since, another is to be made.
 CliqueTree plan_top(Isam2& isam, std::span<const Index> new_variables,
                     std::span<const Index> new_rows);
-void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const Index> new_rows,
-              const CliqueTree& plan, Isam2Report& report);
+void redo_and_solve(Isam2& isam, std::span<const Index> new_variables,
+                    std::span<const Index> new_rows, const CliqueTree& plan, Isam2Report& report);
 
 // Step 3c, algorithm 2 for all frontal variables at once (isam2_eliminate.cpp). Sums clique c's front
 // up from its rows and its children's updates, and eliminates its frontal variables. Appends those of

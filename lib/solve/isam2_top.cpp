@@ -101,6 +101,7 @@ Index adopt_clique(Isam2& isam, const CliqueTree& top, Index k, std::span<const 
   sizes.f = top.frontal_dim[k];
   sizes.s = top.separator_dim[k];
   sizes.ec = top.ec[k];
+  sizes.merged = top.merged[k];
   sizes.made = isam.updates;
   sizes.factor = leaf && stays_factor(sizes.f, sizes.s);
   const Index c = add_clique(isam.tree, sizes);
@@ -143,11 +144,12 @@ CliqueTree plan_top(Isam2& isam, std::span<const Index> new_variables,
   mark_all_if_many(isam);
   gather_top(isam, new_variables, new_rows);
   make_pattern(isam);
-  return clique_tree(isam.work.pattern, order_top(isam, new_rows), false);
+  return clique_tree(isam.work.pattern, order_top(isam, new_rows), isam.options.relaxed_from);
 }
 
-void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const Index> new_rows,
-              const CliqueTree& plan, Isam2Report& report) {
+void redo_and_solve(Isam2& isam, std::span<const Index> new_variables,
+                    std::span<const Index> new_rows, const CliqueTree& plan,
+                    Isam2Report& report) {
   isam.variables += static_cast<Index>(new_variables.size());
   isam.rows += static_cast<Index>(new_rows.size());
   report.reeliminated = static_cast<Index>(isam.work.variables.size());
@@ -158,6 +160,7 @@ void redo_top(Isam2& isam, std::span<const Index> new_variables, std::span<const
     eliminate_clique(isam, c, report.undetermined);
   }
   std::ranges::sort(report.undetermined);
+  if (report.undetermined.empty()) report.finite = solve_down(isam);
 }
 
 }  // namespace sg::solve

@@ -41,7 +41,7 @@ Index add_clique(Isam2Tree& tree, const Isam2Clique& sizes) {
     tree.lists.resize(2 * tree.list_pool.end());
   clique.numbers = tree.number_pool.take(number_size(clique));
   tree.ec_bt += static_cast<elim::Wide>(clique.ec);
-  if (!is_prior(clique)) ++tree.count;
+  if (!is_prior(clique)) tree.count += clique.merged;
   return c;
 }
 
@@ -52,7 +52,7 @@ void grow_numbers(Isam2Tree& tree) {
 void shelve_clique(Isam2Tree& tree, Index c) {
   Isam2Clique& clique = tree.cliques[c];
   tree.ec_bt -= static_cast<elim::Wide>(clique.ec);
-  if (!is_prior(clique)) --tree.count;
+  if (!is_prior(clique)) tree.count -= clique.merged;
   clique.made = -1;
 }
 

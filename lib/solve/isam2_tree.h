@@ -25,6 +25,7 @@ struct Isam2Clique {
   Index frontals = 0, separators = 0, rows = 0;
   int f = 0, s = 0;     // scalars of frontals and separators
   std::int64_t ec = 0;  // share of EC_BT
+  Index merged = 1;     // cliques of the Bayes tree that it is made of
   Index made = -1;      // in which update
   Index marked = -1;    // in which update, to be taken out
   bool factor = false;  // forms no update: its parent takes its factor (assembly.h)
@@ -49,7 +50,7 @@ struct Isam2Tree {
   Pool number_pool{ChunkedArena::chunk};
   ChunkedArena numbers;
 
-  Index count = 0;       // cliques
+  Index count = 0;       // cliques of the Bayes tree
   elim::Wide ec_bt = 0;  // sum over them of d_f (d_f + d_s)^2
 };
 

@@ -256,8 +256,7 @@ Isam2Report update(Isam2Window& window, const Step& step, Index k) {
   while (window.first + least < k && is_too_old(window, window.first + least, k)) ++least;
   Leaving leaving;
   const CliqueTree plan = plan_within(window, entering, k, least, leaving);
-  redo_top(isam, entering.variables, entering.rows, plan, report);
-  if (report.undetermined.empty()) report.finite = solve_down(isam);
+  redo_and_solve(isam, entering.variables, entering.rows, plan, report);
   if (report.undetermined.empty() && report.finite)
     take_leave(isam, leaving.variables, window.options.smooth, report);
   check_solved(window.replay, k, report);

@@ -395,6 +395,55 @@ TEST_CASE("kernels: Gram matrix and scattered sum, in either order", "[eliminate
   }
 }
 
+TEST_CASE("kernels: a front set to a matrix is one that is cleared and added to, bit for bit",
+          "[eliminate]") {
+  Random random(8);
+  for (const sg::solve::Kernels* kernel : sg::solve::all_kernels()) {
+    INFO(kernel->name);
+    for (int trial = 0; trial < 300; ++trial) {
+      const int f = draw(random, 1, 20), s = draw(random, 0, 40);
+      DenseFront set(random, f, s), added(random, f, s);
+      const int n = set.front.n;
+      if (trial % 4 == 0) set.front.u = added.front.u = nullptr;
+      std::vector<sg::solve::Run> runs;  // ascending in `to`; the last one is the right-hand side
+      int from = 0;
+      for (int to = draw(random, 0, 5); to + 1 < n; to += draw(random, 1, 9)) {
+        const int length = std::min(draw(random, 1, 12), n - 1 - to);
+        runs.push_back({from, to, length});
+        from += length;
+        to += length;
+      }
+      runs.push_back({from, n - 1, 1});
+      const int size = from + 1;
+      if (runs.size() > 2 && trial % 3 == 0) {  // ordered anew: two of one length change places
+        for (sg::solve::Run& run : std::span(runs).first(runs.size() - 1))
+          run.length = 1;
+        std::swap(runs[0].from, runs[1].from);
+      }
+      Eigen::MatrixXd matrix = Eigen::MatrixXd::NullaryExpr(
+          sg::solve::round_up(size) + sg::solve::lane, size + sg::solve::lane,
+          [&](Eigen::Index, Eigen::Index) { return uniform(random, -1, 1); });
+      const auto ld = static_cast<int>(matrix.rows());
+      const auto count = static_cast<int>(runs.size());
+      std::ranges::fill(set.l, 7.0);
+      std::ranges::fill(set.u, 7.0);
+      kernel->set(set.front, matrix.data(), ld, runs.data(), count);
+      kernel->clear(added.front);
+      kernel->add(added.front, matrix.data(), ld, runs.data(), count);
+      bool same = true;
+      for (int j = 0; j < (set.front.u ? n : f); ++j) {
+        for (int i = j; i < n; ++i) same &= set.at(i, j) == added.at(i, j);
+      }
+      CHECK(same);
+      // Nothing is written behind the pieces.
+      for (int k = 0; k < sg::solve::lane; ++k) {
+        CHECK(set.l[set.front.size_l() + k] == 7);
+        CHECK(set.u[set.front.size_u() + k] == 7);
+      }
+    }
+  }
+}
+
 TEST_CASE("elimination solves random systems as dense algebra does", "[eliminate]") {
   Random random(3);
   std::ptrdiff_t factors = 0;  // cliques without an update
@@ -500,12 +549,14 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
     const sg::graph::Order order = shuffled(random, n);
     const sg::elim::Score score = sg::elim::score(sg::elim::symbolic(system.pattern, order));
     for (const bool relaxed : {false, true}) {
-      const sg::solve::CliqueTree tree = sg::solve::clique_tree(system.pattern, order, relaxed);
+      const sg::solve::CliqueTree tree = sg::solve::clique_tree(
+          system.pattern, order, relaxed ? 0 : sg::solve::never);
       sg::elim::Wide ec_bt = 0;
       for (std::int64_t ec : tree.ec) ec_bt += ec;
       CHECK(ec_bt == score.ec_bt);
       CHECK(tree.cliques() <= score.cliques);
       if (!relaxed) CHECK(tree.cliques() == score.cliques);
+      CHECK(std::accumulate(tree.merged.begin(), tree.merged.end(), 0) == score.cliques);
       // What a clique passes on lies within its parent.
       for (sg::Index c = 0; c < tree.cliques(); ++c) {
         CHECK((tree.separators[c].empty()) == (tree.parent[c] < 0));
@@ -530,8 +581,8 @@ TEST_CASE("small cliques join their parents, where one front takes less time tha
   const sg::graph::Pattern chain = make_pattern(std::vector<int>(100, 3), rows);
   sg::graph::Order order(100);
   std::iota(order.begin(), order.end(), 0);
-  CHECK(sg::solve::clique_tree(chain, order, false).cliques() == 99);
-  CHECK(sg::solve::clique_tree(chain, order, true).cliques() < 50);
+  CHECK(sg::solve::clique_tree(chain, order, sg::solve::never).cliques() == 99);
+  CHECK(sg::solve::clique_tree(chain, order).cliques() < 50);
 }
 
 TEST_CASE("public graphs: the step makes the gradient vanish", "[eliminate]") {
