@@ -61,7 +61,7 @@ void show_file(const std::string& path, const Options& options, const Show& show
 void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
   cmd::add_methods(command, options.methods);
-  cmd::add_budget(command.app, options.methods.budget);
+  cmd::add_best(command, options.methods.best);
   auto& app = command.app;
   app.add_flag("--trace", options.trace, "A row for every step of the growing graph")
       ->option_text(" ");
@@ -86,7 +86,7 @@ void score(const cmd::Command& command, const Options& options) {
                                  {"--per-edge", "a row an edge"}});
   if (!options.trace) cmd::refuse(command.app, {"--every", "--min-obs"}, "without --trace");
   cmd::check(options.methods);
-  cmd::check_budget(command, options.methods);
+  cmd::check_best(command, cmd::asks_for_best(options.methods), options.methods.best);
   const cmd::Given given{{"several files", options.inputs.paths.size() > 1},
                          {"--trace", options.trace}};
   cmd::Output output(options.output.path);

@@ -1,10 +1,12 @@
 // sg-isam2: replay a graph step by step through an incremental smoother; a row a step.
+#include <algorithm>
 #include <cmath>
 
 #include "cmd/common/command.h"
 #include "cmd/common/complete.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/options.h"
+#include "cmd/common/processor.h"
 #include "cmd/common/table.h"
 #include "cmd/isam2/online.h"
 #include "cmd/isam2/timed.h"
@@ -26,6 +28,7 @@ struct Options {
   cmd::TableOptions table;
   solve::Isam2Options isam;
   std::vector<std::string> orderings{isam.ordering};
+  std::string order_budget;  // of best; empty: its default
   Index min_obs = 1;
   Index every = 1;
   bool from_file = false;
@@ -61,9 +64,9 @@ double elimination_seconds(const solve::Isam2& isam, const graph::Order& order) 
   solve::Snapshot snapshot;
   solve::take_snapshot(isam, true, snapshot);
   solve::Elimination elimination = solve::plan_elimination(snapshot.system, order);
-  const double start = isam2::processor_seconds();
+  const double start = cmd::processor_seconds();
   solve::eliminate(elimination, snapshot.system);
-  return isam2::processor_seconds() - start;
+  return cmd::processor_seconds() - start;
 }
 
 struct Row {
@@ -192,12 +195,13 @@ void add_options(cmd::Command& command, Options& options) {
   cmd::add_inputs(command, options.inputs);
   options.inputs.options.unknown_edge = factor::has_no_model;
   auto& app = command.app;
-  app.add_option("-m,--method,--ordering", options.orderings,
-                 "Orderings to eliminate anew by, a replay each\n(default: colamd)")
+  app.add_option("-m,--method,--ordering", options.orderings, "A replay each (default: colamd)")
       ->check(cmd::suggests(text::names_of(order::orderings())))
       ->option_text("METHOD,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+  app.add_option("--order-budget", options.order_budget, "Of best, in every step (default: 200t)")
+      ->option_text("SECONDS|Nt");
   add_thresholds(app, options.isam);
   cmd::add_entry(app, options.min_obs, "A landmark");
   app.add_option_function<std::string>(
@@ -233,9 +237,9 @@ void replay(const cmd::Command& command, const std::string& file, const std::str
     if (options.budget_ms)
       window.options.budget =
           static_cast<elim::Wide>(isam2::ec_of(calibration, *options.budget_ms / 1e3));
-    const double start = isam2::processor_seconds();
+    const double start = cmd::processor_seconds();
     const solve::Isam2Report report = solve::window_step(window, k);
-    const double seconds = isam2::processor_seconds() - start;
+    const double seconds = cmd::processor_seconds() - start;
     isam2::add(calibration, static_cast<double>(report.ec), seconds);
     summary.seconds.push_back(seconds);
     summary.ec.push_back(static_cast<double>(report.ec));
@@ -284,6 +288,8 @@ void run_file(const cmd::Command& command, const Options& options, const std::st
     isam.ordering = ordering;
     // What leaves is told clique by clique, as the Bayes tree has them.
     if (lets_go(options)) isam.relaxed_from = solve::never;
+    if (!options.order_budget.empty())
+      isam.order_budget = order::parse_budget(options.order_budget, "--order-budget");
     solve::WindowOptions window = options.window;
     window.budget = static_cast<elim::Wide>(options.budget);
     solve::Isam2Window state =
@@ -298,6 +304,9 @@ void run(const cmd::Command& command, const Options& options) {
   cmd::check_form(command.app);
   check_window(command.app, options);
   for (const std::string& ordering : options.orderings) order::find_ordering(ordering);
+  if (std::ranges::find(options.orderings, "best") == options.orderings.end())
+    cmd::refuse(command.app, {"--order-budget"}, "without -m best");
+  if (!options.order_budget.empty()) order::parse_budget(options.order_budget, "--order-budget");
   const bool several = options.inputs.paths.size() > 1;
   const bool several_orderings = options.orderings.size() > 1;
   if (several || several_orderings)

@@ -1,6 +1,4 @@
 // sg-order: put a graph's variables in elimination order.
-#include <cstdio>
-
 #include "cmd/common/complete.h"
 #include "cmd/common/estimates.h"
 #include "cmd/common/method.h"
@@ -9,6 +7,7 @@
 #include "formats/reorder.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
+#include "lib/order/polish.h"
 #include "lib/text/error.h"
 
 using namespace sg;
@@ -21,9 +20,10 @@ struct Options {
   std::string method{order::default_ordering};
   std::string apply;
   bool print = false;
+  bool polish = false;
   std::vector<Id> last;
   std::uint64_t seed = 1;
-  std::string budget = "200t";
+  cmd::BestOptions best;
 };
 
 void add_options(cmd::Command& command, Options& options) {
@@ -43,7 +43,8 @@ void add_options(cmd::Command& command, Options& options) {
       ->transform(cmd::whole(0, std::numeric_limits<Id>::max()))
       ->allow_extra_args(false);
   cmd::add_seed(app, options.seed, "Seed of methods that draw or break ties");
-  cmd::add_budget(app, options.budget);
+  cmd::add_best(command, options.best);
+  app.add_flag("--polish", options.polish, "Then reorder parts of it wherever that lowers EC");
   app.add_flag("--print", options.print, "Print the ids in their order instead of the graph");
   cmd::add_filter_output(command, options.output);
 }
@@ -62,19 +63,12 @@ std::vector<Index> last_variables(const Options& options, const Graph& graph,
   return last;
 }
 
-void print_improvement(const order::Improvement& better) {
-  char text[64];
-  std::snprintf(text, sizeof text, " after %d tries, %.2f s", better.tries, better.seconds);
-  cmd::say(std::string(better.how) + ": EC " + elim::to_string(better.ec) + text);
-}
-
 graph::Order computed_order(const cmd::Command& command, const Options& options, const Graph& graph,
                             const graph::GraphPattern& variables) {
   order::OrderOptions order_options = order::order_options(graph, variables);
   order_options.last = last_variables(options, graph, variables);
   order_options.seed = order::draw_of(options.seed);
-  order_options.budget = order::parse_budget(options.budget);
-  if (command.verbose) order_options.report = print_improvement;
+  cmd::set_best(options.best, order_options);
   cmd::stop_when_interrupted(order::find_ordering(options.method), order_options);
   cmd::stage("order");
   graph::Order order = order::elimination_order(options.method, variables.pattern, order_options);
@@ -94,6 +88,18 @@ graph::Order applied_order(const Options& options, const Graph& graph,
   order_options.file_order = formats::parse_order(text.view, file, graph, variables);
   order_options.last = last_variables(options, graph, variables);
   return order::elimination_order("file", variables.pattern, order_options);
+}
+
+void polish(const cmd::Command& command, const Options& options, const Graph& graph,
+            const graph::GraphPattern& variables, graph::Order& order) {
+  cmd::finish_first();
+  cmd::stage("polish");
+  order::Polished polished =
+      order::polish(variables.pattern, order,
+                    {.last = last_variables(options, graph, variables),
+                     .stop = [](double /*seconds*/) { return cmd::interrupted(); }});
+  if (command.verbose) cmd::note("EC " + elim::to_string(polished.ec));
+  order = std::move(polished.order);
 }
 
 // The order's vertices, and after them the fixed ones as the file has them.
@@ -143,18 +149,17 @@ void run(const cmd::Command& command, const Options& options) {
   const CLI::App& app = command.app;
   cmd::at_most_one(app, {{"-m", "computes an order"}, {"--apply", "takes the one of a file"}});
   if (!options.apply.empty()) cmd::refuse(app, {"--seed"}, "with --apply");
-  if (options.method != "best") cmd::refuse(app, {"--budget"}, "without -m best");
   if (options.print) cmd::refuse(app, {"--no-trace-comment"}, "with --print");
   order::find_ordering(options.method);  // before a long read
-  order::parse_budget(options.budget);
+  cmd::check_best(command, options.method == "best", options.best);
   if (options.apply == "-" && options.input.path == "-") {
     throw text::usage_error("graph and order cannot both come from standard input");
   }
   const Graph graph = cmd::read(options.input);
   const graph::GraphPattern variables = graph::graph_pattern(graph);
-  const graph::Order order = options.apply.empty()
-                                 ? computed_order(command, options, graph, variables)
-                                 : applied_order(options, graph, variables);
+  graph::Order order = options.apply.empty() ? computed_order(command, options, graph, variables)
+                                             : applied_order(options, graph, variables);
+  if (options.polish) polish(command, options, graph, variables, order);
   if (options.print) return print_ids(options, graph, variables, order);
   write_graph(command, options, graph, vertices_in_order(graph, variables, order));
 }

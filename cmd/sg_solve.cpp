@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 
+#include "cmd/common/calibration.h"
 #include "cmd/common/command.h"
 #include "cmd/common/complete.h"
 #include "cmd/common/estimates.h"
@@ -14,6 +15,7 @@
 #include "cmd/common/ranges.h"
 #include "cmd/common/same_file.h"
 #include "cmd/common/table.h"
+#include "cmd/solving/calibrate.h"
 #include "cmd/solving/certificate.h"
 #include "cmd/solving/plan.h"
 #include "cmd/solving/prior.h"
@@ -47,6 +49,7 @@ struct Options {
   bool chi2 = false;
   bool residuals = false;
   bool certify = false;
+  bool calibrate = false;
   std::string weights;  // FILE, or empty
   std::vector<Id> fixed;
   std::vector<std::string> priors;
@@ -79,7 +82,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->allow_extra_args(false)
       ->option_text("ID:X,...:S,...");
   cmd::add_methods(command, options.method);
-  cmd::add_budget(command.app, options.method.budget);
+  cmd::add_best(command, options.method.best);
   app.add_option("--backend", options.backend, "Eliminate by " + solve::backend_names())
       ->check(cmd::suggests(text::names_of(solve::backends())))
       ->option_text("NAME");
@@ -97,6 +100,8 @@ void add_options(cmd::Command& command, Options& options) {
   app.add_option("--time", options.runs, "Print a table: the median time of N eliminations")
       ->option_text("N")
       ->transform(cmd::whole(1));
+  app.add_flag("--calibrate", options.calibrate,
+               "Time eliminations, so that sg-ec foretells seconds");
   cmd::add_filter_output(command, options.output);
   cmd::add_table(command, options.table,
                  {{"", cmd::headings(solving::time_columns)},
@@ -265,6 +270,17 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   tell(command, result, cmd::seconds_since(begin));
 }
 
+void calibrate(const cmd::Command& command) {
+  const std::string path = cmd::make_calibration_path();
+  const std::vector<solve::Sample> samples = solving::timed_samples();
+  const solve::Times times = solve::fit_times(samples);
+  const auto [r2, worst] = solving::fit_of(samples, times);
+  cmd::write_calibration(path, times);
+  if (command.quiet) return;
+  cmd::say(std::to_string(samples.size()) + " eliminations: R^2 " + cmd::rounded(r2, 4) +
+           ", at worst off by " + cmd::rounded(worst, 3) + " times; kept in " + path);
+}
+
 void check_files(const Options& options) {
   if (options.weights.empty()) return;
   if (cmd::same_file(options.weights, options.output.path))
@@ -280,12 +296,13 @@ void check_call(const cmd::Command& command, const Options& options) {
   cmd::at_most_one(app, {{"--chi2", "prints the chi-square"},
                          {"--residuals", "prints that of every edge"},
                          {"--certify", "tells whether it is the least"},
-                         {"--time", "times eliminations"}});
+                         {"--time", "times eliminations"},
+                         {"--calibrate", "times those of graphs of its own"}});
   const std::initializer_list<const char*> optimizing{
       "--gn", "-i", "--tolerance", "--keep", "--no-trace-comment", "--gnc", "--weights"};
-  const std::initializer_list<const char*> eliminating{"-m", "--seed", "--budget", "--backend",
-                                                       "-j"};
-  for (const std::string job : {"--chi2", "--residuals", "--certify", "--time"}) {
+  const std::initializer_list<const char*> eliminating{"-m",         "--seed",    "--budget",
+                                                       "--minimize", "--backend", "-j"};
+  for (const std::string job : {"--chi2", "--residuals", "--certify", "--time", "--calibrate"}) {
     if (cmd::given(app, job))
       cmd::refuse(app, optimizing, "with " + job + ", which does not optimize");
   }
@@ -294,7 +311,13 @@ void check_call(const cmd::Command& command, const Options& options) {
       cmd::refuse(app, eliminating, "with " + job + ", which eliminates nothing");
   }
   if (options.certify)
-    cmd::refuse(app, {"-m", "--seed", "--budget", "--backend", "-j", "--kernel"}, "with --certify");
+    cmd::refuse(app, {"-m", "--seed", "--budget", "--minimize", "--backend", "-j", "--kernel"},
+                "with --certify");
+  if (options.calibrate)
+    cmd::refuse(app,
+                {"FILE", "-m", "--seed", "--budget", "--minimize", "--backend", "-j", "--start",
+                 "--init", "--fix", "--kernel", "--kernel-on", "-o"},
+                "with --calibrate, which has graphs of its own");
   if (options.runs == 0 && !options.residuals && !options.certify && options.weights.empty())
     cmd::refuse_table(app, "without --time, --residuals, --weights or --certify");
   if (options.runs == 0 && options.method.names.size() > 1)
@@ -309,8 +332,9 @@ void run(const cmd::Command& command, const Options& options) {
   check_call(command, options);  // a wrong call is told before a long read
   solve::find_backend(options.backend);
   cmd::check(options.method);
-  cmd::check_budget(command, options.method);
+  cmd::check_best(command, cmd::asks_for_best(options.method), options.method.best);
   solve::kernels();
+  if (options.calibrate) return calibrate(command);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
 
   std::optional<cmd::Output> output;

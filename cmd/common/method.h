@@ -9,17 +9,28 @@
 
 namespace sg::cmd {
 
+// How long best may look, and for what.
+struct BestOptions {
+  std::string budget = {};       // empty: the default
+  std::string minimize = "ec";   // or a column of sg-ec that lib/solve/forecast.h foretells
+  const bool* report = nullptr;  // whether each improvement is a line on standard error: -v
+};
+
 struct MethodOptions {
   std::vector<std::string> names;  // empty: the file's order if sg-order left one, else the default
   std::uint64_t seed = 1;
-  std::string budget = {};  // of best, as --budget has it; empty: its default
+  BestOptions best = {};
 };
 void add_methods(Command& command, MethodOptions& options);  // -m NAME,...
 void add_method(Command& command, MethodOptions& options);   // -m NAME
 
-// --budget, which is nothing without -m best.
-void add_budget(CLI::App& app, std::string& budget);
-void check_budget(const Command& command, const MethodOptions& options);
+// --budget and --minimize, which are nothing without -m best.
+void add_best(Command& command, BestOptions& options);
+// `asked`: the call has -m best. Throws usage Errors: for either option where not, for values that are none, and for
+// seconds where nobody calibrated.
+void check_best(const Command& command, bool asked, const BestOptions& options);
+void set_best(const BestOptions& options, order::OrderOptions& order_options);
+bool asks_for_best(const MethodOptions& options);
 
 // Throws a usage Error for a name that no ordering has: worth knowing before a graph is read.
 void check(const MethodOptions& options);

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "cmd/common/calibration.h"
 #include "lib/elim/row_price.h"
 
 namespace sg::ec {
@@ -10,8 +11,12 @@ graph::Order order_of(const Subject& subject) {
   return cmd::order_by(*subject.method, subject.options, subject.graph, subject.variables);
 }
 
+const graph::Order& ScoreRow::order() {
+  return cmd::once(order_, [&] { return order_of(subject); });
+}
+
 const elim::Symbolic& ScoreRow::symbolic() {
-  return cmd::once(symbolic_, [&] { return elim::symbolic(pattern(), order_of(subject)); });
+  return cmd::once(symbolic_, [&] { return elim::symbolic(pattern(), order()); });
 }
 
 const elim::Score& ScoreRow::score() {
@@ -22,7 +27,18 @@ const elim::BayesTree& ScoreRow::tree() {
   return cmd::once(tree_, [&] { return elim::bayes_tree(symbolic()); });
 }
 
+const solve::Forecast& ScoreRow::forecast() {
+  return cmd::once(forecast_, [&] { return solve::forecast(pattern(), order()); });
+}
+
 namespace {
+
+// Of one elimination here; nothing where nobody calibrated.
+std::optional<double> foretold_seconds(ScoreRow& row) {
+  static const std::optional<solve::Times> times = cmd::read_calibration();
+  if (!times) return {};
+  return solve::seconds(row.forecast().work, *times);
+}
 
 template <class Row>
 cmd::Column<Row> file_column() {
@@ -80,6 +96,12 @@ const std::vector<cmd::Column<ScoreRow>> score_columns{
     {"cliques", "Cliques of the Bayes tree", [](ScoreRow& row) { return row.tree().cliques(); }},
     {"ec_bt", "Elimination complexity of the Bayes tree: the sum over cliques",
      [](ScoreRow& row) { return elim::elimination_complexity(row.tree()); }},
+    {"factor_bytes", "Bytes of the factor as sg-solve keeps it: numbers and lists",
+     [](ScoreRow& row) { return row.forecast().factor_bytes; }},
+    {"peak_bytes", "The same with the updates that wait while it is made",
+     [](ScoreRow& row) { return row.forecast().peak_bytes; }},
+    {"seconds", "Foretold for one elimination on one thread (sg-solve --calibrate)",
+     foretold_seconds},
 };
 
 const std::vector<cmd::Column<VertexRow>> vertex_columns{

@@ -10,6 +10,7 @@
 #include "cmd/common/table.h"
 #include "lib/elim/bayes_tree.h"
 #include "lib/graph/replay.h"
+#include "lib/solve/forecast.h"
 
 namespace sg::ec {
 
@@ -28,14 +29,18 @@ graph::Order order_of(const Subject& subject);
 
 struct ScoreRow {
   const Subject& subject;
+  std::optional<graph::Order> order_ = {};
   std::optional<elim::Symbolic> symbolic_ = {};
   std::optional<elim::Score> score_ = {};
   std::optional<elim::BayesTree> tree_ = {};
+  std::optional<solve::Forecast> forecast_ = {};
 
   const graph::Pattern& pattern() const { return subject.variables.pattern; }
+  const graph::Order& order();
   const elim::Symbolic& symbolic();
   const elim::Score& score();
   const elim::BayesTree& tree();
+  const solve::Forecast& forecast();
 };
 extern const std::vector<cmd::Column<ScoreRow>> score_columns;
 

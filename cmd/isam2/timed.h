@@ -1,13 +1,9 @@
-// How a replay through iSAM2 is timed, and held.
+// How a replay through iSAM2 is held.
 #pragma once
 
 #include "lib/factor/problem.h"
 
 namespace sg::isam2 {
-
-// Processor time: what other programs on the machine do does not count, and a step of a millisecond
-// that is interrupted for ten stays a step of a millisecond.
-double processor_seconds();
 
 // A replay needs its gauge from the first step on; what holds the whole graph may come later. Holds the first pose where
 // nothing else does so in the first step; true where it had to.

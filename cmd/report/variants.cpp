@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cmd/common/estimates.h"
+#include "cmd/common/processor.h"
 #include "cmd/isam2/timed.h"
 #include "cmd/solving/plan.h"
 #include "formats/applied.h"
@@ -63,9 +64,9 @@ std::optional<double> isam2_seconds(const Graph& graph, const cmd::Method& metho
   double seconds = 0;
   for (Index k = 0; k < replay.steps.steps; ++k) {
     if (deadline.passed()) return std::nullopt;
-    const double start = isam2::processor_seconds();
+    const double start = cmd::processor_seconds();
     solve::replay_step(replay, k);
-    seconds += isam2::processor_seconds() - start;
+    seconds += cmd::processor_seconds() - start;
   }
   return seconds;
 }

@@ -40,9 +40,7 @@ void add_robust(CLI::App& app, RobustOptions& options) {
                  cmd::wrapped_list(
                      "Robust kernel of width W: ", text::names_of(factor::kernel_shapes()), ", "))
       ->option_text("NAME:W");
-  app.add_option(
-         "--kernel-on", options.on,
-         "loops, observations, all: what --kernel or --gnc\nis for (default: all but odometry)")
+  app.add_option("--kernel-on", options.on, "loops, observations, all (default: all but odometry)")
       ->option_text("WHAT")
       ->check(cmd::one_of({"loops", "observations", "all"}));
   app.add_flag("--gnc", options.gnc, "Graduated non-convexity: leave false edges out");

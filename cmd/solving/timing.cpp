@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cmd/common/processor.h"
 #include "cmd/common/stage.h"
 #include "lib/solve/batch.h"
 #include "lib/solve/linear_solver.h"
@@ -25,12 +26,14 @@ Timing timed(const TimingOptions& options, const factor::Problem& problem,
   const auto start = std::chrono::steady_clock::now();
   const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
   const double plan = cmd::seconds_since(start);
-  std::vector<double> times;
+  std::vector<double> times, processor;
   for (int k = 0; k < options.runs && (k == 0 || !cmd::interrupted()); ++k) {
     cmd::progress(k);
+    const double before = cmd::processor_seconds();
     const auto begin = std::chrono::steady_clock::now();
     if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
     times.push_back(cmd::seconds_since(begin));
+    processor.push_back(cmd::processor_seconds() - before);
   }
   return {problem.graph->file,
           label,
@@ -41,7 +44,8 @@ Timing timed(const TimingOptions& options, const factor::Problem& problem,
           elim::elimination_complexity(pattern, order),
           static_cast<int>(times.size()),
           plan,
-          median(times)};
+          median(times),
+          median(processor)};
 }
 
 const std::vector<cmd::Column<Timing>> time_columns{
@@ -57,6 +61,7 @@ const std::vector<cmd::Column<Timing>> time_columns{
     {"median_s", "Median of the elimination times, in seconds", &Timing::median_s},
     {"s_per_ec", "The same for a unit of elimination complexity",
      [](Timing& timing) { return timing.median_s / elim::to_double(timing.ec); }},
+    {"cpu_s", "Median of their processor seconds, of all threads", &Timing::cpu_s},
 };
 
 void print_times(const TimingOptions& options, const factor::Problem& problem,

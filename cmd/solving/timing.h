@@ -23,6 +23,7 @@ struct Timing {
   int runs;
   double plan_s;
   double median_s;
+  double cpu_s;
 };
 
 extern const std::vector<cmd::Column<Timing>> time_columns;

@@ -80,7 +80,7 @@ struct Search {
   std::vector<int> stage = {};    // 1 of the variables of `last`
   graph::Order order = {};        // the best so far
   Price price = {};               // of it
-  Elimination best = {};          // and it, once tries want to know
+  Elimination best = {};          // the same in a postorder, once tries begin
   std::vector<double> cost = {};  // running sum of the costs of best's variables
   Clock clock = {};
   double amd_seconds = 0;  // with a score
@@ -117,8 +117,8 @@ void take(Search& search, const graph::Order& order, const Price& price) {
   search.price = price;
 }
 
-void take(Search& search, Elimination&& elimination, const Price& price) {
-  take(search, elimination.order, price);
+// What tries start from.
+void set_out(Search& search, Elimination&& elimination) {
   search.best = std::move(elimination);
   search.cost.clear();
   double sum = 0;
@@ -306,13 +306,13 @@ std::vector<Found> take_best_method(Search& search) {
   std::iota(turn.begin(), turn.end(), 0);
   std::ranges::stable_sort(
       turn, [&](std::size_t a, std::size_t b) { return found[a].price < found[b].price; });
-  Found& least = found[turn.front()];
+  const Found& least = found[turn.front()];
   take(search, least.order, least.price);
   report(search, methods[turn.front()]->name, 0);
   std::vector<Found> first;
   for (const std::size_t k : turn) {
-    if (first.size() < polished_methods && found[k].price.ec < 2 * least.price.ec)
-      first.push_back(std::move(found[k]));
+    const bool worth = !found[k].order.empty() && found[k].price.ec < 2 * search.price.ec;
+    if (worth && first.size() < polished_methods) first.push_back(std::move(found[k]));
   }
   return first;
 }
@@ -352,7 +352,8 @@ void take_round(Search& search, std::vector<Try>& tries, int done) {
     }
   }
   if (!(price < search.price)) return;
-  take(search, std::move(improved), price);
+  take(search, improved.order, price);
+  set_out(search, std::move(improved));
   report(search, how, done);
 }
 
@@ -369,7 +370,7 @@ graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
   take_best_polished(search, methods);
   const Budget& budget = options.budget;
   if (!time_for(search, 1)) return std::move(search.order);
-  take(search, elimination(pattern, search.order), search.price);
+  set_out(search, elimination(pattern, search.order));
   search.wide = options.last.empty() && is_wide(search.graph, search.price.ec);
   const auto time_left = [&] { return time_for(search, 0); };
   const auto tries_left = [&](int done) { return budget.seconds > 0 || done < budget.tries; };

@@ -14,8 +14,11 @@
 namespace sg::order {
 namespace {
 
-constexpr std::array sizes{64, 512, 4096};  // of regions, one sweep each, and again
-constexpr double least_gain = 3e-4;         // of EC, by one sweep through all sizes
+constexpr std::array sizes{64, 512, 4096};  // of regions, one sweep each in every round
+constexpr std::array scales{1.0,  1.5, 0.75,
+                            1.25, 0.6, 2.0};  // of the sizes, by round: borders move
+constexpr int exchanges_a_round = 6;
+constexpr double least_gain = 3e-4;  // of EC, by one of two rounds
 
 // Of R and B, as fill_graph.h has parts: no two of B are joined.
 graph::Adjacency part_graph(const Region& region) {
@@ -89,6 +92,13 @@ graph::Order swept(const Elimination& elimination, Index size, const std::vector
   return recut(elimination, regions, orders);
 }
 
+// The order after exchanges of adjacent cliques.
+graph::Order exchanged(const Elimination& elimination, const std::vector<bool>& left_out) {
+  std::vector<graph::Order> orders;
+  const std::vector<Region> regions = exchanges(elimination, left_out, orders);
+  return recut(elimination, regions, orders);
+}
+
 // Of `last`, and all that the tree has above them.
 std::vector<bool> positions_left_out(const Elimination& elimination,
                                      const std::vector<bool>& is_last) {
@@ -111,14 +121,25 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
   // A sweep's parts that no stop can cut short take about twice as long as this.
   const std::chrono::duration<double> alone = std::chrono::steady_clock::now() - begin;
   double before = elim::to_double(best.ec);
-  for (int sweep = 0; sweep < options.sweeps && !best.order.empty(); ++sweep) {
-    if (stopped(options, 2 * alone.count())) break;
-    const std::size_t round = static_cast<std::size_t>(sweep) % sizes.size();
-    best =
-        elimination(pattern, swept(best, sizes[round], positions_left_out(best, is_last), options));
-    if (round + 1 < sizes.size()) continue;
+  const auto sweep = [&](const auto& next) {
+    if (stopped(options, 2 * alone.count())) return false;
+    best = elimination(pattern, next(positions_left_out(best, is_last)));
+    return true;
+  };
+  int idle = 0;
+  for (int round = 0; round < options.rounds && idle < 2 && !best.order.empty(); ++round) {
+    const double scale = scales[static_cast<std::size_t>(round) % scales.size()];
+    for (const Index least : sizes) {
+      const auto size = static_cast<Index>(scale * least);
+      if (!sweep([&](const auto& out) { return swept(best, size, out, options); })) break;
+    }
+    elim::Wide last = 0;
+    for (int k = 0; k < exchanges_a_round && best.ec != last; ++k) {
+      last = best.ec;
+      if (!sweep([&](const auto& out) { return exchanged(best, out); })) break;
+    }
     const double after = elim::to_double(best.ec);
-    if (after > (1 - least_gain) * before) break;
+    idle = after > (1 - least_gain) * before ? idle + 1 : 0;
     before = after;
   }
   // A postorder may have put some of `last` before others.

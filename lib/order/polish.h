@@ -4,9 +4,14 @@
 // order, so that each is a small problem of its own: the order that minimum fill gives it, knowing what is around it
 // (fill_graph.h), and where it is wide, dissection's, take the place of the one it has wherever they cost less. All regions
 // of a cut go at a time, on all threads. Cuts of several sizes follow one another, so that what lay across a border lies
-// within the next; sweeps go on while they gain.
+// within the next. Then adjacent cliques of the Bayes tree are exchanged where the parent had better go first, which a
+// greedy order does not see; rounds go on while they gain.
 //
 // Deterministic. Time: a sweep takes about what wmf takes of the whole, or less.
+//
+// What is not here: taking fill back that no triangulation needs (Blair, Heggernes, Telle, A practical algorithm for making
+// filled graphs minimal, 2001). Of the public graphs' fill under AMD, COLAMD and minimum fill less than a hundredth is of that
+// kind, as it is after polishing.
 #pragma once
 
 #include <functional>
@@ -22,7 +27,7 @@ struct PolishOptions {
   // Whether there is no time for what takes about so many seconds: asked before every sweep, and before every region
   // (with 0) by any thread. May be empty.
   std::function<bool(double seconds)> stop = {};
-  int sweeps = 12;  // at most
+  int rounds = 6;  // at most, each of sweeps of all sizes and exchanges
 };
 
 struct Polished {

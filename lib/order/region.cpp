@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <queue>
+#include <span>
 #include <utility>
 
+#include "lib/elim/bayes_tree.h"
 #include "lib/elim/counts.h"
 
 namespace sg::order {
@@ -167,6 +170,83 @@ std::vector<Region> cut(const Elimination& e, Index size, const std::vector<bool
       if (!separator.empty()) part.pattern.rows.add(separator);
     });
     separators.add(name_positions(e, part));
+  }
+  return regions;
+}
+
+namespace {
+
+struct Cliques {
+  elim::BayesTree tree;
+  graph::Lists<> frontals, separators, children;
+};
+
+// A clique's frontal variables and those of its child, with what they meet.
+Region pair_of(const Elimination& e, const Cliques& cliques, Index parent, Index child) {
+  Region pair{cliques.tree.top[parent], {}, {}, 0};
+  for (const Index c : {child, parent}) {
+    const auto frontals = cliques.frontals[c];
+    pair.inside.insert(pair.inside.end(), frontals.begin(), frontals.end());
+  }
+  std::ranges::sort(pair.inside);
+  graph::Lists<>& rows = pair.pattern.rows;
+  for (const Index k : pair.inside) add_own_rows(e, k, rows);
+  for (const Index c : {child, parent}) {
+    for (const Index below : cliques.children[c]) {
+      if (below == child) continue;
+      rows.items.insert(rows.items.end(), cliques.separators[below].begin(),
+                        cliques.separators[below].end());
+      end_row(rows);
+    }
+  }
+  name_positions(e, pair);
+  return pair;
+}
+
+// Those of the parent first, as they are among themselves; then the child's, then what is around.
+graph::Order exchanged(const Region& pair, std::span<const Index> parent) {
+  graph::Order order(pair.pattern.variables());
+  std::iota(order.begin(), order.end(), 0);
+  const auto around = order.begin() + static_cast<std::ptrdiff_t>(pair.inside.size());
+  std::stable_partition(order.begin(), around, [&](Index k) {
+    return std::ranges::binary_search(parent, pair.inside[k]);
+  });
+  return order;
+}
+
+}  // namespace
+
+std::vector<Region> exchanges(const Elimination& e, const std::vector<bool>& left_out,
+                              std::vector<graph::Order>& orders) {
+  constexpr std::size_t most_children = 64;  // beyond, every pair would look at all of them
+  Cliques cliques{elim::bayes_tree({e.pattern.dim, e.parent, e.count}), {}, {}, {}};
+  const elim::BayesTree& tree = cliques.tree;
+  cliques.frontals = elim::clique_frontals(tree);
+  cliques.separators = elim::clique_separators(e.pattern, tree);
+  cliques.children = graph::grouped(tree.parent, tree.cliques());
+  std::vector<Region> regions;
+  std::vector<bool> paired(tree.cliques(), false);
+  for (Index c = 0; c < tree.cliques(); ++c) {
+    if (paired[c] || left_out[tree.top[c]]) continue;
+    const auto frontals = cliques.frontals[c];
+    Region best{tree.top[c], {frontals.begin(), frontals.end()}, {}, 0};
+    graph::Order order;
+    Index with = -1;
+    elim::Wide gain = 0;
+    for (const Index child : cliques.children[c]) {
+      if (paired[child] || cliques.children[c].size() > most_children) continue;
+      Region pair = pair_of(e, cliques, c, child);
+      graph::Order other = exchanged(pair, frontals);
+      const elim::Wide ec = region_ec(pair, other);
+      if (ec + gain >= pair.ec) continue;
+      gain = pair.ec - ec;
+      with = child;
+      best = std::move(pair);
+      order = std::move(other);
+    }
+    if (with >= 0) paired[with] = true;
+    regions.push_back(std::move(best));
+    orders.push_back(std::move(order));
   }
   return regions;
 }

@@ -7,6 +7,8 @@ set -o pipefail  # a command that fails fails its pipeline, whoever reads it
 BIN=${BIN:-$BATS_TEST_DIRNAME/../../../build/release/bin}
 PATH=$BIN:$PATH
 TESTDATA=$BATS_TEST_DIRNAME/../../../testdata
+# Nobody's calibration (sg-solve --calibrate): what is printed is the same everywhere.
+export XDG_CACHE_HOME=$BATS_RUN_TMPDIR/cache
 
 # need_data NAME...: skips the test where the public graphs are not at hand.
 need_data() {

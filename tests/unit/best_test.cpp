@@ -96,6 +96,44 @@ TEST_CASE("more tries are never worse, nor are seconds", "[best]") {
   CHECK(ec(0, 0.2) <= none);
 }
 
+TEST_CASE("best without any time is amd, and with some never worse", "[best]") {
+  Random random(4);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Index n = draw(random, 1, 200);
+    const Pattern pattern = odd_pattern(random, n);
+    const sg::elim::Wide amd =
+        sg::elim::elimination_complexity(pattern, sg::order::elimination_order("amd", pattern));
+    sg::order::OrderOptions options;
+    options.budget = {0, trial % 3 == 0 ? 1e-9 : 1e-4 * trial};
+    if (trial % 4 == 0) options.stop = [] { return true; };
+    const Order order = sg::order::elimination_order("best", pattern, options);
+    REQUIRE(sg::graph::is_permutation(order, n));
+    const sg::elim::Wide ec = sg::elim::elimination_complexity(pattern, order);
+    CHECK(ec <= amd);
+    if (trial % 3 == 0) CHECK(ec == amd);
+  }
+}
+
+TEST_CASE("best for a price has the least of it", "[best]") {
+  Random random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Index n = draw(random, 1, 80);
+    const Pattern pattern = odd_pattern(random, n);
+    sg::order::OrderOptions options;
+    options.budget.tries = trial % 2 == 0 ? 0 : 48;
+    // The depth of the elimination tree, which has little to do with EC.
+    options.price = [](const Pattern& of, const Order& order) {
+      return static_cast<double>(sg::elim::height(sg::elim::symbolic(of, order).parent));
+    };
+    double told = 0;
+    options.report = [&](const sg::order::Improvement& better) { told = better.price; };
+    const Order order = sg::order::elimination_order("best", pattern, options);
+    CHECK(options.price(pattern, order) == told);
+    for (const char* method : {"id", "colamd", "amd", "wmf", "metis", "rcm"})
+      CHECK(told <= options.price(pattern, sg::order::elimination_order(method, pattern)));
+  }
+}
+
 TEST_CASE("best improves on every method on public graphs", "[best][data]") {
   const auto folder = public_graphs();
   if (!folder) return;

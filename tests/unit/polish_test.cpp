@@ -78,6 +78,33 @@ TEST_CASE("what all regions of a cut gain together, the whole elimination gains"
   }
 }
 
+TEST_CASE("what exchanges of cliques promise, the whole elimination gains", "[polish]") {
+  Random random(5);
+  int exchanged = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Index n = draw(random, 1, 50);
+    const Pattern pattern = odd_pattern(random, n);
+    const auto before = sg::order::elimination(pattern, any_order(random, pattern, trial));
+    std::vector<Order> orders;
+    const auto regions = sg::order::exchanges(before, std::vector<bool>(n, false), orders);
+    REQUIRE(regions.size() == orders.size());
+    std::size_t covered = 0;
+    sg::elim::Wide gain = 0;
+    for (std::size_t k = 0; k < regions.size(); ++k) {
+      covered += regions[k].inside.size();
+      if (orders[k].empty()) continue;
+      const sg::elim::Wide ec = sg::order::region_ec(regions[k], orders[k]);
+      REQUIRE(ec < regions[k].ec);
+      gain += regions[k].ec - ec;
+      ++exchanged;
+    }
+    REQUIRE(covered == before.order.size());
+    const Order after = sg::order::recut(before, regions, orders);
+    REQUIRE(sg::elim::elimination_complexity(pattern, after) + gain == before.ec);
+  }
+  CHECK(exchanged > 500);
+}
+
 TEST_CASE("a polished order is never worse, and costs what it says", "[polish]") {
   Random random(3);
   int better = 0;

@@ -2,7 +2,7 @@ load ../common
 
 setup() { cd "$TESTDATA"; }
 
-columns=order,vertices,edges,dim,ec,rose,flops,nnz,fill,max_clique,height,cliques,ec_bt
+columns=order,vertices,edges,dim,ec,rose,flops,nnz,fill,max_clique,height,cliques,ec_bt,factor_bytes,peak_bytes,seconds
 
 @test "the columns, in their order" {
   [ "$(sg-ec figure1.g2o | head -n 1 | tr '\t' ,)" = "$columns" ]
