@@ -17,9 +17,9 @@ namespace {
 
 void add(Command& command, MethodOptions& options, const char* type, int most) {
   command.app
-      .add_option("-m,--method", options.names,
-                  "Of sg-order(1) (default: the file's, else " +
-                      std::string(order::default_ordering) + ")")
+      .add_option(
+          "-m,--method", options.names,
+          "Of sg-order(1) (default: the file's, else " + std::string(order::default_ordering) + ")")
       ->option_text(type)
       ->delimiter(',')
       ->check(suggests(text::names_of(order::orderings())))
