@@ -42,7 +42,7 @@ void add_robust(CLI::App& app, RobustOptions& options) {
       ->option_text("NAME:W");
   app.add_option(
          "--kernel-on", options.on,
-         "loops, observations, all: what --kernel or --gnc\nis for (default: all but odometry)")
+         "loops, observations, all (default: all but odometry)")
       ->option_text("WHAT")
       ->check(cmd::one_of({"loops", "observations", "all"}));
   app.add_flag("--gnc", options.gnc, "Graduated non-convexity: leave false edges out");

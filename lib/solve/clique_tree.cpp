@@ -133,8 +133,7 @@ std::vector<bool> childless(std::span<const Index> parent) {
   return result;
 }
 
-CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order,
-                       int relaxed_from) {
+CliqueTree clique_tree(const graph::Pattern& pattern, const graph::Order& order, int relaxed_from) {
   const elim::CliqueLists tree = elim::clique_lists(pattern, order);
   std::vector<Index> target(tree.cliques());
   std::iota(target.begin(), target.end(), 0);
