@@ -20,18 +20,16 @@ int place_variables(std::span<const Index> frontals, std::span<const Index> sepa
 bool append_runs(std::span<const Index> variables, std::span<const int> dim,
                  std::span<const int> row_at, int last_row, std::vector<Run>& runs) {
   const std::size_t first = runs.size();
-  runs.resize(first + variables.size() + 1);
-  Run* const begin = runs.data() + first;
-  Run* end = begin;
   bool ascend = true;
   int from = 0;
   const auto append = [&](int to, int length) {
-    Run* const last = end - 1;
-    if (end != begin && last->to + last->length == to && last->from + last->length == from) {
-      last->length += length;
+    const bool has_last = runs.size() > first;
+    if (has_last && runs.back().to + runs.back().length == to &&
+        runs.back().from + runs.back().length == from) {
+      runs.back().length += length;
     } else {
-      ascend = ascend && (end == begin || last->to < to);
-      *end++ = {from, to, length};
+      ascend = ascend && (!has_last || runs.back().to < to);
+      runs.push_back({from, to, length});
     }
     from += length;
   };
@@ -44,8 +42,7 @@ bool append_runs(std::span<const Index> variables, std::span<const int> dim,
     }
   }
   append(last_row, 1);
-  if (!ascend) std::ranges::sort(begin, end, {}, &Run::to);
-  runs.resize(end - runs.data());
+  if (!ascend) std::ranges::sort(std::span(runs).subspan(first), {}, &Run::to);
   return ascend;
 }
 

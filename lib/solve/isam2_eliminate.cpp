@@ -18,8 +18,7 @@ void mirror(const Front& front) {
     for (int row = column; row < size; row += lane) {
       const int last = std::min(row + lane, size);
       for (int j = column; j < end; ++j) {
-        for (int i = std::max(row, j + 1); i < last; ++i)
-          front.u[i * ld + j] = front.u[j * ld + i];
+        for (int i = std::max(row, j + 1); i < last; ++i) front.u[i * ld + j] = front.u[j * ld + i];
       }
     }
   }
@@ -61,8 +60,9 @@ Front child_front(Isam2& isam, const Isam2Clique& child, int last_row) {
 void assemble(Isam2& isam, const Isam2Clique& clique, const Front& front, const Kernels& kernel) {
   std::vector<int>& row_at = isam.work.row_at;
   const std::vector<Run>& runs = isam.work.runs;
-  const int last_row = place_variables(frontals_of(isam.tree, clique),
-                                       separators_of(isam.tree, clique), pattern_of(isam).dim, row_at);
+  const int last_row =
+      place_variables(frontals_of(isam.tree, clique), separators_of(isam.tree, clique),
+                      pattern_of(isam).dim, row_at);
   const Index first = largest_child(isam, clique);
   if (first < 0) {
     kernel.clear(front);

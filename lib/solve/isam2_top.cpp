@@ -148,8 +148,7 @@ CliqueTree plan_top(Isam2& isam, std::span<const Index> new_variables,
 }
 
 void redo_and_solve(Isam2& isam, std::span<const Index> new_variables,
-                    std::span<const Index> new_rows, const CliqueTree& plan,
-                    Isam2Report& report) {
+                    std::span<const Index> new_rows, const CliqueTree& plan, Isam2Report& report) {
   isam.variables += static_cast<Index>(new_variables.size());
   isam.rows += static_cast<Index>(new_rows.size());
   report.reeliminated = static_cast<Index>(isam.work.variables.size());

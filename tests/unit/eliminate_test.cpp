@@ -416,8 +416,7 @@ TEST_CASE("kernels: a front set to a matrix is one that is cleared and added to,
       runs.push_back({from, n - 1, 1});
       const int size = from + 1;
       if (runs.size() > 2 && trial % 3 == 0) {  // ordered anew: two of one length change places
-        for (sg::solve::Run& run : std::span(runs).first(runs.size() - 1))
-          run.length = 1;
+        for (sg::solve::Run& run : std::span(runs).first(runs.size() - 1)) run.length = 1;
         std::swap(runs[0].from, runs[1].from);
       }
       Eigen::MatrixXd matrix = Eigen::MatrixXd::NullaryExpr(
@@ -549,8 +548,8 @@ TEST_CASE("cliques: unrelaxed they are lib/elim's, relaxed they keep its EC_BT",
     const sg::graph::Order order = shuffled(random, n);
     const sg::elim::Score score = sg::elim::score(sg::elim::symbolic(system.pattern, order));
     for (const bool relaxed : {false, true}) {
-      const sg::solve::CliqueTree tree = sg::solve::clique_tree(
-          system.pattern, order, relaxed ? 0 : sg::solve::never);
+      const sg::solve::CliqueTree tree =
+          sg::solve::clique_tree(system.pattern, order, relaxed ? 0 : sg::solve::never);
       sg::elim::Wide ec_bt = 0;
       for (std::int64_t ec : tree.ec) ec_bt += ec;
       CHECK(ec_bt == score.ec_bt);
