@@ -20,7 +20,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check faults python mutants install uninstall deb bench fuzz tsan paper orderings outliers front regimes budget starts marginalize lint format clean picture
+.PHONY: help deps build demo check faults python mutants install uninstall deb bench fuzz tsan paper orderings outliers front regimes budget starts marginalize sweep scale lint format clean picture
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -92,10 +92,12 @@ bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OP
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
 fuzz: PRESET := fuzz
-fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers (FUZZ_SECONDS=60)
+fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers, then the calls of all commands (FUZZ_SECONDS=60)
 	@$(call configure,$(commands_alone))
 	@$(call build,fuzzers)
 	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
+	@$(MAKE) --no-print-directory build PRESET=release
+	@tests/fuzz/calls build/release/bin $(or $(FUZZ_SECONDS),60)
 
 tsan: PRESET := tsan
 tsan: build/packages/build build/packages/test ## run what is parallel under the thread sanitizer
@@ -130,6 +132,12 @@ starts: build ## every start of sg-solve on every graph, into out/starts (GRAPHS
 marginalize: build ## what topologies of marginalized poses cost and lose, into out/marginalize (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/marginalize OUT=$(CURDIR)/out/marginalize \
 	  GRAPHS="$(abspath $(GRAPHS))"
+
+sweep: build ## worlds x policies x rates x seeds x orderings, into out/sweep (SWEEP=make|parallel|slurm, WORLDS=..., SEEDS=...)
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/sweep sweep OUT=$(CURDIR)/out/sweep JOBS=$(JOBS)
+
+scale: build ## what pipes over large graphs take, a command and a stage at a time, into out/scale (POSES=1000000)
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/scale OUT=$(CURDIR)/out/scale
 
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 

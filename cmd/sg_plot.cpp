@@ -1,14 +1,18 @@
 // sg-plot: pictures of a graph, of its factor, of its Bayes tree, of a table.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
+#include "cmd/common/table.h"
 #include "cmd/plot/curves.h"
 #include "cmd/plot/heat.h"
+#include "cmd/plot/overlay.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
+#include "cmd/plot/unsolved.h"
 #include "cmd/plot/words.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
@@ -21,7 +25,7 @@ namespace {
 
 struct Options {
   std::string what;
-  cmd::Input input;
+  cmd::Inputs inputs;
   cmd::OutputOptions output;
   cmd::MethodOptions method;
   std::string plane;
@@ -29,6 +33,8 @@ struct Options {
   bool cost = false;
   bool sigma = false;
   std::vector<std::string> only;
+  std::string overlay;
+  std::vector<std::string> columns;
   std::vector<std::string> log;  // axes
   plot::PageSize size{600, 600};
 };
@@ -41,7 +47,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->required()
       ->check(cmd::one_of({"map", "pattern", "tree", "curves"}))
       ->option_text(" ");
-  cmd::add_input(command, options.input);
+  cmd::add_inputs(command, options.inputs);
   cmd::add_method(command, options.method);
   app.add_flag("--cost", options.cost, "Of a map: colour what costs by its share of EC")
       ->option_text(" ");
@@ -60,6 +66,12 @@ void add_options(cmd::Command& command, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("KIND,...");
+  app.add_option("--overlay", options.overlay, "Of a map: a second graph, or a trajectory, over it")
+      ->option_text("FILE");
+  app.add_option("-f,--fields", options.columns, "Of curves: these columns, the first to the right")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("NAME,...");
   app.add_option("--log", options.log, "Of curves: these axes are logarithmic: x, y")
       ->check(cmd::one_of({"x", "y"}))
       ->delimiter(',')
@@ -94,13 +106,6 @@ std::vector<score::Ellipse> ellipses(const Graph& graph, const graph::Order& ord
   return result;
 }
 
-// "walk.g2o: 5 poses, 2 landmarks, 11 edges, EC 697 (colamd)"
-std::string title(const Graph& graph, const graph::GraphPattern& variables, const std::string& name,
-                  const graph::Order& order) {
-  const elim::Wide ec = elim::column_score(elim::symbolic(variables.pattern, order)).ec;
-  return plot::counted(graph) + ", EC " + elim::to_string(ec) + " (" + name + ")";
-}
-
 struct EdgeKind {
   std::string_view name;
   graph::EdgeRole role;
@@ -123,37 +128,64 @@ plot::View seen_from(const Options& options, const Graph& graph) {
   return options.plane.empty() ? plot::best_view(graph) : plot::plane_view(options.plane);
 }
 
-void draw(cairo_t* page, const Options& options, const Graph& graph) {
-  const bool map = options.what == "map";
-  const graph::GraphPattern variables = graph::graph_pattern(graph);
+std::optional<plot::Overlay> overlay(const Options& options, const Graph& graph) {
+  if (options.overlay.empty()) return {};
+  formats::ReadOptions read = options.inputs.options;
+  read.format.clear();  // a file of any format
+  cmd::begin_reading(options.overlay);
+  const Graph other = formats::read_graph(options.overlay, read);
+  return plot::overlay(graph, other.file, score::trajectory(other));
+}
+
+std::string error_in_words(const plot::Overlay& overlay) {
+  return "ATE " + cmd::rounded(*overlay.error.ate, 4) + " m over " +
+         plot::counted(static_cast<Index>(overlay.error.matched), "pose", "poses") + " of " +
+         overlay.name;
+}
+
+void draw_map(cairo_t* page, const Options& options, const Graph& graph,
+              const graph::GraphPattern& variables) {
   const auto [name, order] = cmd::named_order(options.method, graph, variables);
-  const plot::View view = map ? seen_from(options, graph) : plot::View{};
-  if (map && !options.cost && !options.sigma)
-    return plot::draw_map(page, options.size, graph, view, title(graph, variables, name, order),
-                          shown_edges(options));
-  if (options.sigma) {
-    return plot::draw_sigma_map(page, options.size, graph, view, ellipses(graph, order, view));
+  const plot::View view = seen_from(options, graph);
+  if (options.cost) {
+    const plot::Costs costs = plot::costs(variables, order);
+    return plot::draw_cost_map(page, options.size, graph, view, costs,
+                               plot::cost_heading(graph, costs, name));
   }
-  if (map) {
-    return plot::draw_cost_map(page, options.size, graph, view,
-                               plot::costs(variables, order, name));
-  }
-  if (options.what == "pattern") {
-    plot::draw_pattern(page, options.size, variables.pattern, order);
-    const elim::Wide nnz = elim::column_score(elim::symbolic(variables.pattern, order)).nnz;
-    const elim::Wide fill = nnz - elim::system_nnz(variables.pattern);
-    return plot::draw_title(page, options.size,
-                            title(graph, variables, name, order) + ", " + elim::to_string(nnz) +
-                                " entries, " + elim::to_string(fill) + " of them fill",
-                            12, 9, 8);
-  }
-  plot::draw_tree(page, options.size, elim::symbolic(variables.pattern, order));
-  plot::draw_title(page, options.size, title(graph, variables, name, order), 12, 9, 8);
+  plot::Heading heading{
+      plot::title(graph, elim::column_score(elim::symbolic(variables.pattern, order)).ec, name),
+      plot::unsolved_hint(graph)};
+  if (options.sigma)
+    return plot::draw_sigma_map(page, options.size, graph, view, ellipses(graph, order, view),
+                                heading);
+  const std::optional<plot::Overlay> other = overlay(options, graph);
+  if (other)
+    heading.below = error_in_words(*other) + (heading.below.empty() ? "" : "; " + heading.below);
+  plot::draw_map(page, options.size, graph, view, heading, shown_edges(options),
+                 other ? &*other : nullptr);
+}
+
+void draw_elimination(cairo_t* page, const Options& options, const Graph& graph,
+                      const graph::GraphPattern& variables) {
+  const auto [name, order] = cmd::named_order(options.method, graph, variables);
+  const elim::Symbolic symbolic = elim::symbolic(variables.pattern, order);
+  const elim::Score score = elim::column_score(symbolic);
+  const std::string title = plot::title(graph, score.ec, name);
+  if (options.what == "tree") return plot::draw_tree(page, options.size, symbolic, {title});
+  const elim::Wide fill = score.nnz - elim::system_nnz(variables.pattern);
+  plot::draw_pattern(page, options.size, variables.pattern, order,
+                     {title, "R in the order of " + name + ": " + elim::to_string(score.nnz) +
+                                 " entries, " + elim::to_string(fill) + " of them fill"});
 }
 
 std::string picture_of_curves(const Options& options, plot::PictureFormat format) {
-  const text::Text text = cmd::read_text(options.input);
-  const plot::Curves curves = plot::read_curves(text.view, text::input_name(options.input.path));
+  std::vector<text::Text> texts;
+  std::vector<plot::TableText> tables;
+  for (const std::string& path : options.inputs.paths) {
+    texts.push_back(cmd::read_text({path, options.inputs.options}));
+    tables.push_back({text::input_name(path), texts.back().view});
+  }
+  const plot::Curves curves = plot::read_curves(tables, options.columns);
   const auto is_log = [&](const char* axis) {
     return std::ranges::find(options.log, axis) != options.log.end();
   };
@@ -171,13 +203,15 @@ void write(const Options& options, const std::string& bytes) {
 
 void run(const cmd::Command& command, const Options& options) {
   if (options.what != "map")
-    cmd::refuse(command.app, {"--cost", "--sigma", "--plane", "--view", "--only"},
+    cmd::refuse(command.app, {"--cost", "--sigma", "--plane", "--view", "--only", "--overlay"},
                 "on a " + options.what + ", only on a map");
   cmd::at_most_one(command.app,
                    {{"--plane", "looks along an axis"}, {"--view", "from where it says"}});
   cmd::at_most_one(command.app, {{"--cost", "colours what costs"}, {"--sigma", "draws ellipses"}});
-  if (options.cost) cmd::refuse(command.app, {"--only"}, "with --cost, which colours all edges");
-  if (options.sigma) cmd::refuse(command.app, {"--only"}, "with --sigma, whose edges are faint");
+  if (options.cost)
+    cmd::refuse(command.app, {"--only", "--overlay"}, "with --cost, which colours all edges");
+  if (options.sigma)
+    cmd::refuse(command.app, {"--only", "--overlay"}, "with --sigma, whose edges are faint");
   const plot::PictureFormat format = plot::picture_format(options.output.path);
   if (options.what == "curves") {
     cmd::refuse(
@@ -186,12 +220,20 @@ void run(const cmd::Command& command, const Options& options) {
         "on curves, which are those of a table");
     return write(options, picture_of_curves(options, format));
   }
-  cmd::refuse(command.app, {"--log"}, "on a " + options.what + ", only on curves");
+  cmd::refuse(command.app, {"--log", "-f"}, "on a " + options.what + ", only on curves");
+  if (options.inputs.paths.size() > 1)
+    throw text::usage_error("a " + options.what + " is one graph's: give it one FILE");
   cmd::check(options.method);
-  const Graph graph = cmd::read(options.input);
+  const Graph graph = cmd::read(options.inputs, options.inputs.paths.front());
   cmd::stage("draw");
-  const std::string bytes = plot::picture(format, options.size.width, options.size.height,
-                                          [&](cairo_t* page) { draw(page, options, graph); });
+  const std::string bytes =
+      plot::picture(format, options.size.width, options.size.height, [&](cairo_t* page) {
+        const auto variables = graph::graph_pattern(graph);
+        if (options.what == "map")
+          draw_map(page, options, graph, variables);
+        else
+          draw_elimination(page, options, graph, variables);
+      });
   write(options, bytes);
 }
 

@@ -4,19 +4,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <optional>
 
 #include "cmd/common/table.h"
+#include "cmd/plot/axes.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/words.h"
-#include "lib/text/error.h"
-#include "lib/text/words.h"
 
 namespace sg::plot {
 namespace {
 
-constexpr double left = 70, right = 16, top = 30, bottom = 40;
+constexpr double left = 70, right = 16, bottom = 40;
 
 // Brewer's Dark2, which people who do not tell red from green can tell apart.
 constexpr std::array<Color, 8> colors{{{0.11, 0.62, 0.47},
@@ -27,37 +24,6 @@ constexpr std::array<Color, 8> colors{{{0.11, 0.62, 0.47},
                                        {0.90, 0.67, 0.01},
                                        {0.65, 0.46, 0.11},
                                        {0.40, 0.40, 0.40}}};
-
-using Cells = std::vector<std::string>;
-
-Cells cells_of(std::string_view line) {
-  Cells cells;
-  for (std::size_t at = 0; at <= line.size();) {
-    const auto end = std::min(line.find('\t', at), line.size());
-    cells.emplace_back(line.substr(at, end - at));
-    at = end + 1;
-  }
-  return cells;
-}
-
-std::optional<double> number(const std::string& cell) {
-  const auto value = text::parse<double>(cell);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
-
-std::vector<Cells> rows_of(std::string_view text, const std::string& file) {
-  std::vector<Cells> rows;
-  std::size_t line = 0;
-  while (!text.empty()) {
-    ++line;
-    rows.push_back(cells_of(text::next_line(text)));
-    if (rows.back().size() != rows.front().size())
-      throw text::input_error(file, line,
-                              std::to_string(rows.back().size()) + " cells, and the header has " +
-                                  std::to_string(rows.front().size()));
-  }
-  return rows;
-}
 
 struct Axis {
   double low, high;  // of the values, or of their logarithms
@@ -87,22 +53,19 @@ Axis axis(const Curves& curves, double Point::*coordinate, const LogAxes& log, b
 
 // Round numbers along an axis; of a logarithmic one powers of ten.
 std::vector<double> ticks(const Axis& axis) {
-  constexpr double about = 6;
-  double step = std::pow(10, std::floor(std::log10((axis.high - axis.low) / about)));
-  for (const double digit : {2.0, 2.5, 2.0}) {  // 2, 5 and 10 times
-    if ((axis.high - axis.low) / step > about) step *= digit;
-  }
+  double step = round_step(axis.low, axis.high, 6);
   if (axis.log) step = std::max(1.0, std::ceil(step));
-  std::vector<double> result;
-  for (double k = std::ceil(axis.low / step - 1e-9); k * step <= axis.high + 1e-9 * step; ++k)
-    result.push_back(axis.log ? std::pow(10, k * step) : k * step + 0.0);
+  std::vector<double> result = round_numbers(axis.low, axis.high, step);
+  if (axis.log)
+    std::ranges::transform(result, result.begin(), [](double x) { return std::pow(10, x); });
   return result;
 }
 
-double width_of(cairo_t* page, const std::string& words) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(page, words.c_str(), &extents);
-  return extents.x_advance;
+// "1000", but "1e6" of powers of ten beyond that.
+std::string label(const Axis& axis, double tick) {
+  const double power = std::round(std::log10(std::abs(tick)));
+  if (axis.log && std::abs(power) > 4) return "1e" + cmd::rounded(power, 6);
+  return cmd::rounded(tick, 6);
 }
 
 void draw_axes(cairo_t* page, const PageSize& size, const Axis& x, const Axis& y,
@@ -122,11 +85,11 @@ void draw_axes(cairo_t* page, const PageSize& size, const Axis& x, const Axis& y
   };
   for (const double tick : ticks(x)) {
     line(x(tick), y.from, x(tick), y.to);
-    words(x(tick), y.from + 14, 0.5, cmd::rounded(tick, 6));
+    words(x(tick), y.from + 14, 0.5, label(x, tick));
   }
   for (const double tick : ticks(y)) {
     line(x.from, y(tick), x.to, y(tick));
-    words(x.from - 5, y(tick) + 3, 1, cmd::rounded(tick, 6));
+    words(x.from - 5, y(tick) + 3, 1, label(y, tick));
   }
   words(x.to, size.height - 8, 1, name);
 }
@@ -160,59 +123,79 @@ Curve thinned(const Curve& curve, const Axis& x, const Axis& y) {
   return result;
 }
 
-}  // namespace
-
-Curves read_curves(std::string_view text, const std::string& file) {
-  const std::vector<Cells> rows = rows_of(text, file);
-  if (rows.size() < 2)
-    throw text::input_error(file, 0, "no table: a header line and a row at least");
-  std::vector<std::size_t> numbers, words;
-  for (std::size_t k = 0; k < rows.front().size(); ++k) {
-    bool any = false, all = true;
-    for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
-      any = any || number((*row)[k]);
-      all = all && ((*row)[k].empty() || number((*row)[k]));
-    }
-    if (!all) words.push_back(k);
-    if (all && any) numbers.push_back(k);
-  }
-  if (numbers.size() < 2)
-    throw text::input_error(file, 1, "curves want two columns of numbers, the first to the right");
-  Curves result{rows.front()[numbers.front()], {}};
-  std::map<std::string, std::size_t> known;
-  for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
-    const auto x = number((*row)[numbers.front()]);
-    for (auto column = numbers.begin() + 1; column != numbers.end(); ++column) {
-      const auto y = number((*row)[*column]);
-      if (!x || !y) continue;
-      std::string name = rows.front()[*column];
-      for (const std::size_t word : words) name += " " + (*row)[word];
-      const auto [place, fresh] = known.emplace(name, result.curves.size());
-      if (fresh) result.curves.push_back({name, {}});
-      result.curves[place->second].points.push_back({*x, *y});
-    }
-  }
-  return result;
+// Its colour and, where colours come round again, its dashes.
+void set_look(cairo_t* page, std::size_t k) {
+  set_color(page, colors[k % colors.size()]);
+  const double dash = 2.0 * static_cast<double>(k / colors.size());
+  const std::array<double, 2> dashes{dash, 3};
+  cairo_set_dash(page, dashes.data(), dash > 0 ? 2 : 0, 0);
 }
 
+constexpr double legend_font = 9, legend_line = 11, sample = 12, gap = 12;
+constexpr std::size_t most_lines = 8;
+
+// How many of the curves' names stand in each line above the picture.
+std::vector<std::size_t> legend_lines(cairo_t* page, const PageSize& size, const Curves& curves) {
+  cairo_set_font_size(page, legend_font);
+  std::vector<std::size_t> lines;
+  double x = 0;
+  for (const Curve& curve : curves.curves) {
+    const double width = sample + 4 + width_of(page, curve.name) + gap;
+    if (lines.empty() || (lines.back() > 0 && x + width > size.width - left - right)) {
+      if (lines.size() == most_lines) break;
+      lines.push_back(0);
+      x = 0;
+    }
+    ++lines.back();
+    x += width;
+  }
+  if (lines.empty()) lines.push_back(0);
+  return lines;
+}
+
+void draw_legend(cairo_t* page, const Curves& curves, const std::vector<std::size_t>& lines) {
+  cairo_set_font_size(page, legend_font);
+  cairo_set_line_width(page, 2);
+  std::size_t k = 0;
+  double y = 20;
+  for (const std::size_t count : lines) {
+    double x = left;
+    for (std::size_t i = 0; i < count; ++i, ++k) {
+      set_look(page, k);
+      cairo_move_to(page, x, y);
+      cairo_line_to(page, x + sample, y);
+      cairo_stroke(page);
+      set_color(page, {0, 0, 0});
+      cairo_move_to(page, x + sample + 4, y + 3);
+      cairo_show_text(page, curves.curves[k].name.c_str());
+      x += sample + 4 + width_of(page, curves.curves[k].name) + gap;
+    }
+    y += legend_line;
+  }
+  cairo_set_dash(page, nullptr, 0, 0);
+  if (k == curves.curves.size()) return;
+  const std::string more = "and " + std::to_string(curves.curves.size() - k) + " more";
+  cairo_move_to(page, 4, y - legend_line + 3);
+  cairo_show_text(page, more.c_str());
+}
+
+}  // namespace
+
 void draw_curves(cairo_t* page, const PageSize& size, const Curves& curves, const LogAxes& log) {
+  const std::vector<std::size_t> lines = legend_lines(page, size, curves);
+  const double top = 19 + legend_line * static_cast<double>(lines.size());
   const Axis x = axis(curves, &Point::x, log, log.x, left, size.width - right);
   const Axis y = axis(curves, &Point::y, log, log.y, size.height - bottom, top);
   draw_axes(page, size, x, y, curves.x);
   cairo_set_line_width(page, 1.5);
   cairo_set_line_cap(page, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(page, CAIRO_LINE_JOIN_ROUND);
-  double legend = left;
   for (std::size_t k = 0; k < curves.curves.size(); ++k) {
-    set_color(page, colors[k % colors.size()]);
+    set_look(page, k);
     draw_curve(page, thinned(curves.curves[k], x, y), x, y);
-    cairo_arc(page, legend + 4, top / 2, 4, 0, 2 * M_PI);
-    cairo_fill(page);
-    set_color(page, {0, 0, 0});
-    cairo_move_to(page, legend + 12, top / 2 + 3);
-    cairo_show_text(page, curves.curves[k].name.c_str());
-    legend += 24 + width_of(page, curves.curves[k].name);
   }
+  draw_legend(page, curves, lines);
+  draw_heading(page, size, {curves.title, " "});
 }
 
 }  // namespace sg::plot

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cmd/plot/picture.h"
-#include "cmd/plot/scenes.h"
+#include "cmd/plot/words.h"
 #include "lib/graph/pattern.h"
 
 namespace sg::plot {
@@ -15,20 +15,20 @@ Color heat(double value);
 
 // What every variable costs under an order, and what they cost together: EC; and what EC would lose without an edge.
 struct Costs {
-  std::string order;             // its name
   std::vector<double> vertex;    // d_f (d_f + d_s)^2 of every vertex; 0 of constants
   std::vector<Index> ascending;  // the vertices that are variables, by cost
   std::vector<double> edge;      // the price of every edge; 0 of free ones
-  double total = 0;
+  elim::Wide ec = 0;
+  double total = 0;         // the same
   double largest = 0;       // of vertices
   double largest_edge = 0;  // of edges
 };
-Costs costs(const graph::GraphPattern& variables, const graph::Order& order, std::string name);
+Costs costs(const graph::GraphPattern& variables, const graph::Order& order);
 
 // The fewest variables that hold half of the cost.
 Index half(const Costs& costs);
 
-// What the colours say: EC and its concentration at the top, the scale at the lower right corner.
-void draw_cost_legend(cairo_t* page, const PageSize& size, const Costs& costs);
+// What stands above a map of costs: EC, its concentration, and whether the estimates look unsolved.
+Heading cost_heading(const Graph& graph, const Costs& costs, const std::string& order);
 
 }  // namespace sg::plot

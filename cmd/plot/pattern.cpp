@@ -3,12 +3,13 @@
 
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
+#include "cmd/plot/words.h"
 #include "lib/elim/structure.h"
 
 namespace sg::plot {
 namespace {
 
-constexpr double margin = 12;
+constexpr double margin = 24;
 constexpr std::int64_t most_cells = 1000;  // a side: finer than a screen shows
 
 enum class Cell : std::uint8_t { empty, fill, system };
@@ -77,7 +78,9 @@ void draw_cells(cairo_t* page, const Raster& raster, Cell what, double width) {
 }  // namespace
 
 void draw_pattern(cairo_t* page, const PageSize& size, const graph::Pattern& pattern,
-                  const graph::Order& order) {
+                  const graph::Order& order, const Heading& heading) {
+  draw_heading(page, size, heading);
+  draw_legend(page, size, {{path_color, "the system"}, {loop_color, "fill"}});
   const double side = std::min(size.width, size.height) - 2 * margin;
   set_color(page, faint_color);
   cairo_set_line_width(page, 0.5);

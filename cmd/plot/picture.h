@@ -31,5 +31,7 @@ constexpr Color path_color{0.12, 0.30, 0.55};
 constexpr Color loop_color{0.85, 0.45, 0.10};
 constexpr Color landmark_color{0.15, 0.50, 0.25};
 constexpr Color faint_color{0.60, 0.60, 0.60};
+constexpr Color overlay_color{0.49, 0.18, 0.56};
+constexpr Color error_color{0.91, 0.16, 0.54};
 
 }  // namespace sg::plot

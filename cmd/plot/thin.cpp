@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <unordered_set>
 #include <utility>
 
 namespace sg::plot {
@@ -15,21 +17,20 @@ std::uint64_t cell(const Point& p, double size) {
   return count(p.x) << 16 | count(p.y);
 }
 
-std::vector<Segment> first_of_each(const std::vector<Segment>& segments,
-                                   const std::vector<Point>& at, double size) {
-  std::vector<std::pair<std::uint64_t, std::size_t>> keys;
-  keys.reserve(segments.size());
-  for (const auto& [from, to] : segments) {
-    const auto [low, high] = std::minmax({cell(at[from], size), cell(at[to], size)});
-    keys.emplace_back(low << 32 | high, keys.size());
-  }
-  std::ranges::sort(keys);
-  const auto rest = std::ranges::unique(keys, {}, &std::pair<std::uint64_t, std::size_t>::first);
-  keys.erase(rest.begin(), rest.end());
-  std::ranges::sort(keys, {}, &std::pair<std::uint64_t, std::size_t>::second);
+// Nothing where they are more than `most`, which is found out early.
+std::optional<std::vector<Segment>> first_of_each(const std::vector<Segment>& segments,
+                                                  const std::vector<Point>& at, double size,
+                                                  std::size_t most) {
+  std::unordered_set<std::uint64_t> taken;
+  taken.reserve(2 * most);
   std::vector<Segment> kept;
-  kept.reserve(keys.size());
-  for (const auto& [key, k] : keys) kept.push_back(segments[k]);
+  for (const Segment& segment : segments) {
+    const auto [low, high] =
+        std::minmax({cell(at[segment.from], size), cell(at[segment.to], size)});
+    if (!taken.insert(low << 32 | high).second) continue;
+    if (kept.size() == most) return std::nullopt;
+    kept.push_back(segment);
+  }
   return kept;
 }
 
@@ -37,8 +38,9 @@ std::vector<Segment> first_of_each(const std::vector<Segment>& segments,
 
 std::vector<Segment> thinned(std::vector<Segment> segments, const std::vector<Point>& at,
                              std::size_t most) {
-  for (double size = 0.5; segments.size() > most && size < 65536; size *= 2)
-    segments = first_of_each(segments, at, size);
+  for (double size = 0.5; segments.size() > most && size < 65536; size *= 2) {
+    if (auto kept = first_of_each(segments, at, size, most)) return std::move(*kept);
+  }
   return segments;
 }
 

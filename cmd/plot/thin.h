@@ -18,7 +18,7 @@ struct Segment {
 };
 
 // Where there are more than `most`: of all that join the same two cells of the page the first, in the order given. Cells
-// begin at half a point and double until no more than `most` stay. O(n log n).
+// begin at half a point and double until no more than `most` stay.
 std::vector<Segment> thinned(std::vector<Segment> segments, const std::vector<Point>& at,
                              std::size_t most = 40000);
 

@@ -4,6 +4,7 @@
 #include "cmd/plot/heat.h"
 #include "cmd/plot/picture.h"
 #include "cmd/plot/scenes.h"
+#include "cmd/plot/words.h"
 #include "lib/elim/bayes_tree.h"
 #include "lib/graph/lists.h"
 
@@ -52,27 +53,36 @@ std::vector<double> lefts(const elim::BayesTree& tree, const CliqueCosts& costs,
 
 }  // namespace
 
-void draw_tree(cairo_t* page, const PageSize& size, const elim::Symbolic& symbolic) {
+void draw_tree(cairo_t* page, const PageSize& size, const elim::Symbolic& symbolic,
+               Heading heading) {
   const elim::BayesTree tree = elim::bayes_tree(symbolic);
-  if (tree.cliques() == 0) return;
+  if (tree.cliques() == 0) return draw_heading(page, size, heading);
   const CliqueCosts costs = costs_of(tree);
   const std::vector<int> depth = depths(tree);
   double total = 0;
   for (Index c = 0; c < tree.cliques(); ++c) total += costs.own[c];
   const double scale = (size.width - 2 * margin) / total;
   const std::vector<double> left = lefts(tree, costs, scale);
-  const double row = std::min(
-      margin, (size.height - 2 * margin) / (1 + *std::max_element(depth.begin(), depth.end())));
+  const int rows = 1 + *std::max_element(depth.begin(), depth.end());
+  const double row = std::min(margin, (size.height - 2 * margin) / rows);
   const double largest = *std::max_element(costs.own.begin(), costs.own.end());
   const double gap = std::min(0.5, row / 5);
+  Index shown = 0;
   for (Index c = 0; c < tree.cliques(); ++c) {
     const double width = scale * costs.below[c];
     if (width < narrowest) continue;
+    ++shown;
     set_color(page, heat(std::sqrt(costs.own[c] / largest)));
     cairo_rectangle(page, left[c], margin + row * depth[c],
                     std::max(narrowest, width - std::min(gap, width / 4)), row - gap);
     cairo_fill(page);
   }
+  heading.below =
+      counted(tree.cliques(), "clique", "cliques") +
+      (shown < tree.cliques() ? ", " + std::to_string(shown) + " wide enough to see" : "") + ", " +
+      counted(rows, "level", "levels") + "; as wide as a clique costs with all below it";
+  draw_heading(page, size, heading);
+  draw_heat_legend(page, size, "a clique's own share of EC", largest, total);
 }
 
 }  // namespace sg::plot

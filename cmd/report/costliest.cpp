@@ -76,10 +76,12 @@ Map map(Study& study, const cmd::Method& method, const graph::Order& order) {
                                        cmd::text(page_size.height));
   try {
     const plot::View view = plot::best_view(study.graph);
-    const plot::Costs costs = plot::costs(study.variables, order, method.label);
+    const plot::Costs costs = plot::costs(study.variables, order);
+    const plot::Heading heading = plot::cost_heading(study.graph, costs, method.label);
     result.svg = plot::picture(
-        plot::PictureFormat::svg, page_size.width, page_size.height,
-        [&](cairo_t* page) { plot::draw_cost_map(page, page_size, study.graph, view, costs); });
+        plot::PictureFormat::svg, page_size.width, page_size.height, [&](cairo_t* page) {
+          plot::draw_cost_map(page, page_size, study.graph, view, costs, heading);
+        });
     const std::vector<plot::Point> at = plot::places(study.graph, view, page_size);
     const auto& ascending = costs.ascending;
     for (std::size_t k = 0; k < std::min<std::size_t>(ascending.size(), 200); ++k) {

@@ -26,25 +26,14 @@ SE3 pose_of(const Graph& graph, Index v, const std::vector<double>& n) {
                         graph.type_of_vertex(v).tag + " is no pose that a trajectory can have");
 }
 
-struct Matched {
-  std::vector<SE3> estimate, reference;
-};
-Matched match(const Trajectory& estimate, const Trajectory& reference) {
-  Matched matched;
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < estimate.id.size(); ++i) {
-    while (j < reference.id.size() && reference.id[j] < estimate.id[i]) ++j;
-    if (j == reference.id.size() || reference.id[j] != estimate.id[i]) continue;
-    matched.estimate.push_back(estimate.pose[i]);
-    matched.reference.push_back(reference.pose[j]);
-  }
-  return matched;
-}
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-Eigen::Matrix3Xd positions(const std::vector<SE3>& poses) {
-  Eigen::Matrix3Xd result(3, poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    result.col(static_cast<Eigen::Index>(i)) = poses[i].t;
+// Of those of the pairs' poses that `which` picks.
+Eigen::Matrix3Xd positions(const Trajectory& trajectory, const Pairs& pairs,
+                           std::size_t Pairs::value_type::*which) {
+  Eigen::Matrix3Xd result(3, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    result.col(static_cast<Eigen::Index>(i)) = trajectory.pose[pairs[i].*which].t;
   return result;
 }
 
@@ -119,19 +108,38 @@ std::optional<Alignment> alignment(std::string_view name) {
   return std::nullopt;
 }
 
+Pairs matched(const Trajectory& a, const Trajectory& b) {
+  Pairs result;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < a.id.size(); ++i) {
+    while (j < b.id.size() && b.id[j] < a.id[i]) ++j;
+    if (j < b.id.size() && b.id[j] == a.id[i]) result.emplace_back(i, j);
+  }
+  return result;
+}
+
+Trajectory aligned(Trajectory estimate, const Trajectory& reference, Alignment kind) {
+  const Pairs pairs = matched(estimate, reference);
+  if (pairs.empty() || kind == Alignment::none) return estimate;
+  align(estimate.pose,
+        fit(positions(estimate, pairs, &Pairs::value_type::first),
+            positions(reference, pairs, &Pairs::value_type::second), kind == Alignment::sim));
+  return estimate;
+}
+
 TrajectoryError trajectory_error(const Trajectory& estimate, const Trajectory& reference,
                                  Alignment kind) {
-  auto [moved, fixed] = match(estimate, reference);
-  TrajectoryError result{moved.size(), {}, {}};
-  if (moved.empty()) return result;
-  if (kind != Alignment::none)
-    align(moved, fit(positions(moved), positions(fixed), kind == Alignment::sim));
+  const Pairs pairs = matched(estimate, reference);
+  TrajectoryError result{pairs.size(), {}, {}};
+  if (pairs.empty()) return result;
+  const Trajectory moved = aligned(estimate, reference, kind);
   std::vector<double> absolute, relative;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    absolute.push_back((moved[i].t - fixed[i].t).norm());
-    if (i == 0) continue;
-    const SE3 step = between(moved[i - 1], moved[i]);
-    relative.push_back(between(between(fixed[i - 1], fixed[i]), step).t.norm());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const SE3 &own = moved.pose[pairs[k].first], &other = reference.pose[pairs[k].second];
+    absolute.push_back((own.t - other.t).norm());
+    if (k == 0) continue;
+    const SE3 step = between(moved.pose[pairs[k - 1].first], own);
+    relative.push_back(between(between(reference.pose[pairs[k - 1].second], other), step).t.norm());
   }
   result.ate = root_mean_square(absolute);
   if (!relative.empty()) result.rpe = root_mean_square(relative);

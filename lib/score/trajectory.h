@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lib/geometry/se3.h"
@@ -30,6 +31,12 @@ bool is_planar(const Trajectory& trajectory);
 enum class Alignment : std::uint8_t { none, se, sim };
 // The kind of that name, if there is one.
 std::optional<Alignment> alignment(std::string_view name);
+
+// Poses that both have, by id: their places in the one and in the other.
+std::vector<std::pair<std::size_t, std::size_t>> matched(const Trajectory& a, const Trajectory& b);
+
+// The estimate as trajectory_error moves it before it measures. Without a matched pose it stays.
+Trajectory aligned(Trajectory estimate, const Trajectory& reference, Alignment alignment);
 
 struct TrajectoryError {
   std::size_t matched = 0;    // poses that both have

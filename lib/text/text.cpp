@@ -3,6 +3,7 @@
 #include "lib/text/text.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -99,32 +100,78 @@ Text unpacked(Text text, const std::string& path) {
   return text;
 }
 
+// read(2) itself, since std::istream hides the reason for a failure. grow(bytes, capacity) moves both on to a room that
+// is larger, with what is in it. Returns how many bytes there are.
+std::size_t read_all(int descriptor, const std::string& path, char*& bytes, const auto& grow) {
+  constexpr std::size_t least = 1U << 16;
+  std::size_t size = 0, capacity = 0;
+  while (true) {
+    if (capacity - size < least) grow(bytes, capacity);
+    const ssize_t count = ::read(descriptor, bytes + size, capacity - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw input_error(path, 0, std::strerror(errno));
+    if (count == 0) return size;
+    size += static_cast<std::size_t>(count);
+  }
+}
+
+struct Unmap {
+  std::size_t size;
+  void operator()(char* bytes) const { ::munmap(bytes, size); }
+};
+using Room = std::unique_ptr<char, Unmap>;
+
+// Address space for a text of unknown length, which has no memory yet. Nothing where a limit does not allow for it.
+Room reserve() {
+  constexpr std::size_t most = std::size_t{1} << 40;
+  void* const place =
+      ::mmap(nullptr, most, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  return {place == MAP_FAILED ? nullptr : static_cast<char*>(place), {most}};
+}
+
+// Into reserved space: nothing moves, and beyond the first two megabytes the kernel may give memory by as much at a time,
+// where else it would be asked page by page. That is half of what a pipe takes.
+Text drain(int descriptor, const std::string& path, Room room) {
+  static constexpr std::uintptr_t huge = 1U << 21;
+  const auto from = reinterpret_cast<std::uintptr_t>(room.get());
+  char* bytes = room.get() + ((huge - from % huge) % huge);
+  const std::size_t size =
+      read_all(descriptor, path, bytes, [](char* begin, std::size_t& capacity) {
+        const std::size_t more = std::max<std::size_t>(capacity, huge);
+        if (::mprotect(begin + capacity, more, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
+        if (capacity > 0) ::madvise(begin + capacity, more, MADV_HUGEPAGE);
+        capacity += more;
+      });
+  return {std::shared_ptr<const char>(std::move(room)), {bytes, size}};
+}
+
 struct Free {
   void operator()(char* bytes) const { std::free(bytes); }
 };
 
-// All that a descriptor gives. read(2) itself, since std::istream hides the reason for a failure;
-// realloc, since it moves large blocks without touching them and leaves what lies unused out of
-// memory: a text that came through a pipe takes no more than its size.
+// Where space is limited: realloc moves large blocks without touching them and leaves what lies unused out of memory, so
+// that a text takes no more than its size.
+Text drain_tightly(int descriptor, const std::string& path) {
+  std::unique_ptr<char, Free> room;
+  char* bytes = nullptr;
+  const std::size_t size =
+      read_all(descriptor, path, bytes, [&](char*& begin, std::size_t& capacity) {
+        capacity = std::max<std::size_t>(1U << 20, capacity * 2);
+        begin = static_cast<char*>(std::realloc(room.get(), capacity));
+        if (!begin) throw std::bad_alloc();
+        static_cast<void>(room.release());  // realloc has freed it
+        room.reset(begin);
+      });
+  return {std::shared_ptr<const char>(std::move(room)), {bytes, size}};
+}
+
+// All that a descriptor gives. A pipe is made as wide as anybody may make one, where it can be: both its ends wait for each
+// other less.
 Text drain(int descriptor, const std::string& path) {
-  std::unique_ptr<char, Free> bytes;
-  std::size_t size = 0, capacity = 0;
-  while (true) {
-    if (capacity - size < (1U << 16)) {
-      capacity = std::max<std::size_t>(1U << 20, capacity * 2);
-      auto* larger = static_cast<char*>(std::realloc(bytes.get(), capacity));
-      if (!larger) throw std::bad_alloc();
-      static_cast<void>(bytes.release());  // realloc has freed it
-      bytes.reset(larger);
-    }
-    const ssize_t count = ::read(descriptor, bytes.get() + size, capacity - size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw input_error(path, 0, std::strerror(errno));
-    if (count == 0) break;
-    size += static_cast<std::size_t>(count);
-  }
-  const std::string_view view(bytes.get(), size);
-  return {std::shared_ptr<const char>(bytes.release(), Free()), view};
+  constexpr int widest_pipe = 1 << 20;  // /proc/sys/fs/pipe-max-size, unless somebody changed it
+  ::fcntl(descriptor, F_SETPIPE_SZ, widest_pipe);
+  Room room = reserve();
+  return room ? drain(descriptor, path, std::move(room)) : drain_tightly(descriptor, path);
 }
 
 Text read_path(const std::string& path) {

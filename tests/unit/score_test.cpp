@@ -364,6 +364,26 @@ TEST_CASE("a position's covariance is that of where its file's line puts it", "[
   }
 }
 
+TEST_CASE("a trajectory moved onto another keeps its other poses beside those that match",
+          "[score]") {
+  score::Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  score::Trajectory turned =
+      flat({{7, 9, pi / 2}, {5, 1, pi / 2}, {5, 2, pi / 2}, {5, 3, pi / 2}, {4, 3, pi / 2}});
+  line.id = {3, 5, 8};
+  turned.id = {1, 3, 5, 8, 9};
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  CHECK(score::matched(turned, line) == Pairs{{1, 0}, {2, 1}, {3, 2}});
+  CHECK(score::matched(line, turned) == Pairs{{0, 1}, {1, 2}, {2, 3}});
+  const score::Trajectory moved = score::aligned(turned, line, score::Alignment::se);
+  const std::vector<std::pair<double, double>> places{{8, -2}, {0, 0}, {1, 0}, {2, 0}, {2, 1}};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    CHECK(moved.pose[k].t.x() == Approx(places[k].first).margin(1e-12));
+    CHECK(moved.pose[k].t.y() == Approx(places[k].second).margin(1e-12));
+    CHECK(moved.pose[k].q.z() == Approx(0).margin(1e-12));  // they head along x again
+  }
+  CHECK(score::aligned(turned, line, score::Alignment::none).pose[2].t == turned.pose[2].t);
+}
+
 TEST_CASE("trajectory errors worked out by hand", "[score]") {
   const score::Trajectory line = flat({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
   const score::Trajectory bent = flat({{0, 0, 0}, {1, 0, 0}, {2, 3, 0}});

@@ -61,15 +61,15 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   printf '2\n1\n3\n' >order
   printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >in.g2o
   sg-order --apply order in.g2o | sg-plot pattern >fill.svg
-  [ "$(shapes fill.svg "$loop")" -eq 1 ]
+  [ "$(shapes fill.svg "$loop")" -eq 2 ]  # and the legend
   sg-plot pattern -m id in.g2o >none.svg
-  [ "$(shapes none.svg "$loop")" -eq 0 ]
-  [ "$(shapes none.svg "$path")" -eq 1 ]
+  [ "$(shapes none.svg "$loop")" -eq 1 ]
+  [ "$(shapes none.svg "$path")" -eq 2 ]
 }
 
-# cells FILE: x, y, width and height of the cells of a tree.
+# cells FILE: x, y, width and height of the cells of a tree, those of its legend aside.
 cells() { sed -nE 's/^<path .*fill:rgb.* d="M ([0-9.]+) ([0-9.]+) L ([0-9.]+) [0-9.]+ L [0-9.]+ ([0-9.]+) L.*/\1 \2 \3 \4/p' "$1" |
-  awk '{print $1, $2, $3 - $1, $4 - $2}'; }
+  awk '$2 < 580 {print $1, $2, $3 - $1, $4 - $2}'; }
 
 @test "the Bayes tree has a cell for every clique, as wide as what hangs on it costs" {
   printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >in.g2o
@@ -98,16 +98,18 @@ cells() { sed -nE 's/^<path .*fill:rgb.* d="M ([0-9.]+) ([0-9.]+) L ([0-9.]+) [0
   run -2 sg-plot tree --view 30,40 wall.g2o
 }
 
-@test "a pattern tells its entries and its fill" {
+@test "a pattern and a tree say what they show, in two lines and a legend" {
   sg-plot pattern walk.g2o >pattern.svg
   sg-plot tree walk.g2o >tree.svg
-  [ "$(letters pattern.svg)" -ge "$(($(letters tree.svg) + 20))" ]
+  title="walk.g2o: 5 poses, 2 landmarks, 11 edges, EC 697 (colamd)"
+  [ "$(letters pattern.svg)" -gt "$((${#title} + 60))" ]
+  [ "$(letters tree.svg)" -gt "$((${#title} + 60))" ]
 }
 
 @test "the pattern is framed, and the legend of costs has 40 colours, two points each" {
   printf 'EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n' >in.g2o
   sg-plot pattern -m id in.g2o >pattern.svg
-  grep -q 'd="M 12 12 L 588 12 L 588 588 L 12 588 Z' pattern.svg
+  grep -q 'd="M 24 24 L 576 24 L 576 576 L 24 576 Z' pattern.svg
   sg-plot map --cost in.g2o | awk '/ 588 L .* 596 / {split($0, d, "d=\""); split(d[2], x); w = x[5] - x[2]; n += w > 1.9 && w < 2.1} END {exit n != 40}'
 }
 
@@ -145,7 +147,7 @@ cells() { sed -nE 's/^<path .*fill:rgb.* d="M ([0-9.]+) ([0-9.]+) L ([0-9.]+) [0
 }
 
 # letters FILE: how many glyphs it shows.
-letters() { grep -c '<use xlink:href="#glyph' "$1"; }
+letters() { grep -c '<use xlink:href="#glyph' "$1" || true; }
 
 @test "a map says what it is, where it begins and ends, and up to 50 ids" {
   sg-gen manhattan -n 60 -o m.g2o
@@ -185,4 +187,69 @@ letters() { grep -c '<use xlink:href="#glyph' "$1"; }
   [ "$(stat -c %s m.svg)" -lt 5000000 ]
   [ "$(grep -oE ' L ' m.svg | wc -l)" -lt 110000 ]
   [ "$(grep -oE ' L ' m.svg | wc -l)" -gt 20000 ]
+}
+
+# lines COLOUR FILE: the lines of a colour, "M x y L x y" each.
+lines() { grep "stroke:$1" "$2" | grep -oE 'M [0-9.]+ [0-9.]+ L [0-9.]+ [0-9.]+'; }
+overlaid='rgb(49%,18%,56%)' error='rgb(91%,16%,54%)'
+
+@test "a trajectory over a map, moved onto it, with an error a pose" {
+  printf 'VERTEX_SE2 %s 0\n' "0 0 0" "1 1 0" "2 1 1" >map.g2o
+  printf 'EDGE_SE2 %s 1 0 0 1 0 0 1 0 1\n' "0 1" "1 2" >>map.g2o
+  # The same turned by a right angle and shifted; in another order, with a pose more.
+  printf 'VERTEX_SE2 %s 1.5707963267948966\n' "9 5 9" "2 4 6" "1 5 6" "0 5 5" >turned.g2o
+  sg-plot map --overlay turned.g2o map.g2o >turned.svg
+  lines "$error" turned.svg | awk '{dx = $2 - $5; dy = $3 - $6} dx * dx + dy * dy > 1e-4 {bad = 1} END {exit bad || NR != 3}'
+  [ "$(lines "$overlaid" turned.svg | wc -l)" = 3 ]  # 0 1 2 9
+  # One pose is off by 1, and the motion spreads it: the whiskers' root mean square is sg-score's ATE.
+  printf 'VERTEX_SE2 %s 0\n' "0 0 0" "1 1 0" "2 2 1" >off.g2o
+  sg-plot map --overlay off.g2o map.g2o >off.svg
+  ate=$(sg-score -f ate_rmse --no-header --reference off.g2o map.g2o)
+  bar=$(grep -o 'stroke-width:1.5;.* d="[^"]*"' off.svg | grep -oE ' d=".*"' | grep -oE '[0-9.]+' | awk '{n[NR] = $1} END {print n[3] - n[1]}')
+  drawn=$(lines "$error" off.svg | awk '{sum += ($2 - $5) ^ 2 + ($3 - $6) ^ 2} END {print sqrt(sum / NR)}')
+  near "$(awk -v drawn="$drawn" -v bar="$bar" 'BEGIN {print drawn / bar * 0.2}')" "$ate" 1e-4  # the bar has 20 cm
+  # Of another format; poses are numbered as they come.
+  printf '%s 0 0 0 0 0 1\n' "0 0" "1 1" "2 2" >ref.tum
+  sg-plot map --overlay ref.tum map.g2o >/dev/null
+  printf 'VERTEX_SE2 7 0 0 0\n' >other.g2o
+  fails 1 "sg-plot: other.g2o: no pose in common with map.g2o (poses are matched by id)" sg-plot map --overlay other.g2o map.g2o
+  fails 2 "sg-plot: --overlay has no effect with --cost, which colours all edges (see sg-plot --help)" sg-plot map --cost --overlay off.g2o map.g2o
+  fails 2 "sg-plot: --overlay has no effect on a tree, only on a map (see sg-plot --help)" sg-plot tree --overlay off.g2o map.g2o
+}
+
+@test "the far side of a map in space is paler" {
+  colours() { grep -o 'stroke-width:0.8;.*stroke:rgb([^)]*)' "$1" | sed 's/.*stroke:/stroke:/' | sort -u | wc -l; }
+  printf 'VERTEX_SE3:QUAT %s 0 0 0 1\n' "0 0 0 0" "1 4 0 0" "2 4 0 4" "3 0 0 4" "4 0 -4 4" "5 4 -4 4" >box.g2o
+  printf 'EDGE_SE3:QUAT %s 1 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n' "0 1" "1 2" "2 3" "3 4" "4 5" >>box.g2o
+  sg-plot map --view 0,0 box.g2o >front.svg  # from the south: 4 and 5 are near
+  [ "$(colours front.svg)" = 3 ]  # between the far ones, from one to a near one, between those
+  # The last one drawn is the nearest, in full colour; the first the farthest, paler.
+  grep 'stroke-width:0.8;' front.svg | tail -n 1 | grep -q "stroke:$path"
+  grep 'stroke-width:0.8;' front.svg | head -n 1 | grep -q 'stroke:rgb(78%,'
+  sg-plot map walk.g2o >flat.svg
+  [ "$(colours flat.svg)" = 1 ]
+}
+
+@test "a hint where estimates look unsolved" {
+  sg-gen manhattan -n 400 -o odometry.g2o
+  mkdir solved
+  sg-solve -q odometry.g2o -o solved/odometry.g2o
+  for kind in "" --cost --sigma; do
+    before=$(sg-plot map $kind odometry.g2o | letters -)
+    after=$(sg-plot map $kind solved/odometry.g2o | letters -)
+    [ "$((before - after))" -gt 60 ]
+  done
+  # False closures that are fewer than half do not make a solved graph look unsolved.
+  sg-gen manhattan -n 400 --outliers 0.2 | sg-solve -q --gnc -o solved/odometry.g2o
+  [ "$((before - $(sg-plot map solved/odometry.g2o | letters -)))" -gt 40 ]
+}
+
+@test "numbers along the edges of a map, at round lengths" {
+  printf 'VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 10 5 0\n' >line.g2o
+  sg-plot map line.g2o >line.svg
+  # 10 m are 552 points; below, from 24 on, a number every 2 m; at the left, around the middle at 300
+  for at in 24 134.4 244.8 355.2 465.6 576; do
+    grep -oE 'M [0-9.]+ 576 L [0-9.]+ 579' line.svg | awk -v at="$at" '($2 - at) ^ 2 < 1e-3 {found = 1} END {exit !found}'
+  done
+  grep -oE 'M 24 [0-9.]+ L 21 [0-9.]+' line.svg | awk '($3 - 438) ^ 2 < 1e-3 {found = 1} END {exit !found}'  # y of 0
 }
