@@ -13,8 +13,7 @@
 namespace sg::order {
 namespace {
 
-constexpr Index small_piece = 400;    // not parted
-constexpr Index medium_piece = 800;   // ordered both ways
+constexpr Index small_piece = 300;    // not parted
 constexpr double largest_part = 0.9;  // of a piece; a separator that leaves more parts nothing
 
 struct Graph {
@@ -145,9 +144,7 @@ Dissected dissected(Graph& graph, const Piece& piece) {
   join_around(piece, around, graph.number, separator);
   for (const Index v : separator.order) result.order.push_back(piece.inner[v]);
   result.ec += separator_ec(separator);
-  if (piece.size() > medium_piece) return result;
-  Dissected other = by_minimum_fill(piece);
-  return other.ec <= result.ec ? std::move(other) : std::move(result);
+  return result;
 }
 
 // Eliminates what is simplicial or has few neighbours, until nothing is.

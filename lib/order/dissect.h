@@ -2,10 +2,10 @@
 // that weighted minimum fill orders.
 //
 // Separators (separator.h) part the graph again and again. Small pieces are ordered by a greedy pass that knows what is
-// around them (fill_graph.h), and pieces somewhat larger by that or by further separators, whichever is cheaper: what a
-// piece costs depends on no other, so that the elimination complexity of all is the sum of what the pieces say.
+// around them (fill_graph.h): what a piece costs depends on no other, so that the elimination complexity of all is the sum of
+// what the pieces say.
 //
-// Time: every level of pieces looks at every edge a few dozen times, and there are about log2(n / 400) levels. Memory
+// Time: every level of pieces looks at every edge a few dozen times, and there are about log2(n / 300) levels. Memory
 // O(n + m). One thread; the same order on any machine with the same METIS.
 #pragma once
 

@@ -84,6 +84,7 @@ Separation metis_separation(const Piece& piece, std::uint64_t seed) {
   std::vector<int> weight = piece.inner_weight;
   idx_t n = graph.size();
   auto options = options_of(seed);
+  options[METIS_OPTION_NITER] = 4;      // what refinement is left is by price (refine.h)
   options[METIS_OPTION_UFACTOR] = 300;  // a side may have 1.3 times its half
   idx_t size = 0;
   std::vector<idx_t> side(n);

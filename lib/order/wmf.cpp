@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -14,6 +15,9 @@
 
 namespace sg::order {
 namespace {
+
+// List entries looked at for every entry of the graph, up to which a pass is quick.
+constexpr std::int64_t quick_work = 25;
 
 std::int64_t fill(const FillGraph& g, Index v) {
   return g.fill[v].fill;
@@ -128,15 +132,12 @@ void keep_better(GreedyResult& best, GreedyResult&& other) {
   if (!other.order.empty() && other.ec < best.ec) best = std::move(other);
 }
 
-// Where the first pass was quick: plain fill, and minimum degree, which wins on some small graphs.
-void try_cheap(const graph::Pattern& pattern, const graph::Adjacency& graph, GreedyOptions greedy,
-               GreedyResult& best) {
+// Where the first pass was quick.
+void try_plain_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
+                    GreedyOptions greedy, GreedyResult& best) {
   greedy.score = FillScore::plain;
   greedy.limit = best.ec;
   keep_better(best, greedy_fill(pattern, graph, greedy));
-  graph::Order amd = elimination_order("amd", pattern);
-  const elim::Wide ec = elim::elimination_complexity(pattern, amd);
-  keep_better(best, {std::move(amd), ec, 0});
 }
 
 // Where the graph is dense: bounds alone, which take a clique at a time.
@@ -223,23 +224,28 @@ GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vecto
 
 namespace {
 
-// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, minimum fill is not on a
-// graph of so many entries.
-constexpr std::int64_t narrow = 1000, wide = 4000, large = 30000;
+// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, as amd tells it, minimum
+// fill is not on a graph of more than so many entries.
+constexpr std::int64_t narrow = 1000, wide = 2000, medium = 15'000;
+// Variables of a graph that dissection would leave to minimum fill at once, about.
+constexpr Index small = 400;
 // Entries a variable, beyond which a graph is no mesh.
 constexpr std::int64_t dense = 20;
 // List entries that a pass may look at for every entry of a large graph.
 constexpr std::int64_t most_work = 20;
 
-// The better of the greedy passes that the size of the graph affords.
+// The better of the greedy passes that the graph affords, and of amd, which wins on some small graphs.
 GreedyResult minimum_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
-                          GreedyOptions greedy) {
+                          GreedyOptions greedy, GreedyResult&& amd) {
   GreedyResult best = greedy_fill(pattern, graph, greedy);
-  if (best.order.empty()) return best;
   const std::int64_t size = entries(graph);
-  if (best.work <= 25 * size) {
-    try_cheap(pattern, graph, greedy, best);
-  } else if (size > dense * std::int64_t{graph.size()} && best.work <= 100 * size) {
+  const bool given_up = best.order.empty();
+  const bool quick = !given_up && best.work <= quick_work * size;
+  const bool many = size > dense * std::int64_t{graph.size()};
+  if (given_up || amd.ec < best.ec) best = {std::move(amd.order), amd.ec, best.work};
+  if (quick) {
+    try_plain_fill(pattern, graph, greedy, best);
+  } else if (!given_up && many && best.work <= 100 * size) {
     try_bounds(pattern, graph, greedy, best);
   }
   return best;
@@ -258,28 +264,48 @@ bool is_wide(const graph::Adjacency& graph, elim::Wide ec) {
   return ec > static_cast<elim::Wide>(narrow * entries(graph));
 }
 
+namespace {
+
+// Passes and pieces take and leave memory all the time. The C library gives it back to the system, at many times the
+// price of a pass over a small graph, until it has seen as much as this come and go at once (mallopt(3), dynamic threshold).
+void keep_memory_between_passes(const graph::Adjacency& graph) {
+  constexpr std::int64_t bytes_an_entry = 200, least = 1 << 20, most = 30 << 20;
+  const std::int64_t bytes = std::clamp(bytes_an_entry * entries(graph), least, most);
+  void* volatile once = std::malloc(static_cast<std::size_t>(bytes));
+  std::free(once);
+}
+
+}  // namespace
+
 graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
   const graph::Adjacency graph = graph::adjacency(pattern);
+  keep_memory_between_passes(graph);
   GreedyOptions greedy;
   greedy.seed = options.seed;
   if (!options.last.empty()) {
     greedy.stage = stages(pattern.variables(), options.last);
     return greedy_fill(pattern, graph, greedy).order;
   }
+  GreedyResult amd{elimination_order("amd", pattern), 0, 0};
+  amd.ec = elim::elimination_complexity(pattern, amd.order);
+  const elim::Wide by_amd = amd.ec;
   const std::int64_t size = entries(graph);
-  if (size <= large) {
-    GreedyResult best = minimum_fill(pattern, graph, greedy);
-    if (is_wide(graph, best.ec)) {
-      keep_better(best, by_dissection(pattern, graph, options.seed));
+  // Hubs are in every front, and have long lists.
+  if (size > medium) greedy.bounded_work = most_work * size;
+  // Where variables have many neighbours, landmarks do, a high EC says nothing of width.
+  const bool sparse = size <= dense * std::int64_t{graph.size()};
+  if (sparse && size > medium && by_amd > static_cast<elim::Wide>(wide * size)) {
+    GreedyResult best = by_dissection(pattern, graph, options.seed);
+    if (!is_wide(graph, best.ec)) {
+      keep_better(best, minimum_fill(pattern, graph, greedy, std::move(amd)));
     }
     return std::move(best.order);
   }
-  GreedyResult best = by_dissection(pattern, graph, options.seed);
-  // Where variables have many neighbours, landmarks do, a high EC says nothing of width.
-  const bool sparse = size <= dense * std::int64_t{graph.size()};
-  if (sparse && best.ec > static_cast<elim::Wide>(wide * size)) return std::move(best.order);
-  greedy.bounded_work = most_work * size;  // hubs are in every front, and have long lists
-  keep_better(best, minimum_fill(pattern, graph, greedy));
+  GreedyResult best = minimum_fill(pattern, graph, greedy, std::move(amd));
+  const bool given_up = size > medium && best.ec == by_amd;
+  if (sparse && graph.size() > small && is_wide(graph, best.ec) && (size <= medium || given_up)) {
+    keep_better(best, by_dissection(pattern, graph, options.seed));
+  }
   return std::move(best.order);
 }
 

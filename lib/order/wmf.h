@@ -25,12 +25,12 @@
 // than v's, if that is cheaper (better_first in fill_graph.h): mass elimination, the right way
 // around. Ties go to the lowest index, or by seed.
 //
-// No greedy is best everywhere. Where the pass was quick there is time to try plain fill and AMD,
-// and on a dense graph a pass by bounds alone (below); the least EC wins. Graphs that are wide in all
-// directions are parted by separators first, and the greedy orders what these leave (dissect.h): there
-// it is that order or the greedy's, whichever costs less, or on large ones, that order at once. With
-// `last` it is one pass: that form orders parts of a graph anew at every step of a replay, where time is
-// short.
+// No greedy is best everywhere: amd is one of the candidates, where the pass was quick plain fill is another, and on a dense
+// graph a pass by bounds alone (below); the least EC wins. Graphs that are wide in all directions are parted by separators
+// first, and the greedy orders what these leave (dissect.h). What amd costs for every entry of the graph tells which they are: a
+// large wide one is dissected, and ordered by the greedy too only if it turns out not to be wide; a small wide one is ordered
+// both ways; others, and those of many neighbours a variable, are not dissected. With `last` it is one pass: that form
+// orders parts of a graph anew at every step of a replay, where time is short.
 //
 // Exactness. While the graph is small enough, fill is exact, kept up to date edge by edge
 // (fill_graph.h). When the work for that has grown past a fixed multiple of the size of the input,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -10,6 +11,8 @@
 
 #include "lib/order/fill_graph.h"
 #include "lib/order/order.h"
+#include "lib/order/price.h"
+#include "lib/order/refine.h"
 #include "lib/order/separator.h"
 #include "lib/order/vertex_cut.h"
 #include "lib/order/wmf.h"
@@ -75,6 +78,54 @@ int separator_weight(const Piece& piece, const Separation& side) {
   return sum;
 }
 
+// Any separation: what is left of a side that has a neighbour on the other is taken into the separator.
+Separation some_separation(Random& random, const Piece& piece) {
+  Separation side(piece.size());
+  for (char& s : side) s = static_cast<char>(draw(random, 0, 1));
+  for (Index v = 0; v < piece.size(); ++v) {
+    for (const Index u : piece.inside[v]) {
+      if (side[v] + side[u] == 1) side[v] = sg::order::in_separator;
+    }
+  }
+  return side;
+}
+
+// By the definition of Sizes, vertex by vertex.
+sg::order::Sizes literal_sizes(const Piece& piece, const Separation& side) {
+  sg::order::Sizes result;
+  std::array<std::set<Index>, 2> outer;
+  for (Index v = 0; v < piece.size(); ++v) {
+    if (side[v] == sg::order::in_separator) {
+      result.separator += piece.inner_weight[v];
+      continue;
+    }
+    result.side[side[v]] += piece.inner_weight[v];
+    outer[side[v]].insert(piece.around[v].begin(), piece.around[v].end());
+  }
+  for (const int k : {0, 1}) {
+    for (const Index b : outer[k]) result.outer[k] += piece.outer_weight[b];
+  }
+  return result;
+}
+
+// ((s + b)^3 - b^3) / 3
+double clique_cost(double s, double b) {
+  return (std::pow(s + b, 3) - std::pow(b, 3)) / 3;
+}
+
+// What price.h foretells of w scalars with b around them, halved again and again.
+double literal_foretold(double w, double b, double c) {
+  double cost = 0;
+  double pieces = 1;
+  for (; w > 10; pieces *= 2) {
+    const double s = std::min(w, c * std::pow(w, 0.6));
+    cost += pieces * clique_cost(s, b);
+    w = (w - s) / 2;
+    b = b / 2 + s;
+  }
+  return cost + pieces * clique_cost(w, b);
+}
+
 // The least weight of any separator that leaves these on their sides: all of them tried.
 int least_separator(const Piece& piece, Separation side, const std::vector<Index>& free) {
   int least = 1 << 20;
@@ -109,14 +160,7 @@ TEST_CASE("a minimum separator in a band is one of all that there are", "[dissec
     const Pattern pattern = odd_pattern(random, n, 4);
     const Adjacency graph = sg::graph::adjacency(pattern);
     const Piece piece = piece_of(graph, pattern.dim, first(n));
-    // Any separation: what is left of a side that has a neighbour on the other is taken into the separator.
-    Separation side(n);
-    for (char& s : side) s = static_cast<char>(draw(random, 0, 1));
-    for (Index v = 0; v < n; ++v) {
-      for (const Index u : graph[v]) {
-        if (side[v] + side[u] == 1) side[v] = sg::order::in_separator;
-      }
-    }
+    Separation side = some_separation(random, piece);
     REQUIRE(separates(piece, side));
     const std::array<std::int64_t, 2> room{draw(random, 0, 8), draw(random, 0, 8)};
     const auto found = sg::order::minimum_separations(piece, side, room);
@@ -136,6 +180,73 @@ TEST_CASE("a minimum separator in a band is one of all that there are", "[dissec
     smaller += separator_weight(piece, found[0]) < separator_weight(piece, side);
   }
   CHECK(smaller > 30);
+}
+
+TEST_CASE("what a separation makes of a piece is counted, and refined while it is", "[dissect]") {
+  Random random(7);
+  int cheaper = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Pattern pattern = odd_grid(random, draw(random, 5, 12));
+    const Index n = pattern.variables();
+    const Adjacency graph = sg::graph::adjacency(pattern);
+    const Piece piece = piece_of(graph, pattern.dim, first(n - draw(random, 0, n / 3)));
+    Separation side = some_separation(random, piece);
+    const auto agree = [&] {
+      const sg::order::Sizes a = sg::order::sizes(piece, side), b = literal_sizes(piece, side);
+      return a.side == b.side && a.outer == b.outer && a.separator == b.separator;
+    };
+    REQUIRE(agree());
+    const auto prices = sg::order::prices(piece, draw(random, 10, 60));
+    const double before = sg::order::price(prices, literal_sizes(piece, side));
+    const double after =
+        sg::order::refine(piece, prices, draw(random, 1, 4), draw(random, 1, 40), side);
+    REQUIRE(separates(piece, side));
+    REQUIRE(after <= before);
+    REQUIRE(after == sg::order::price(prices, literal_sizes(piece, side)));
+    cheaper += after < before;
+  }
+  CHECK(cheaper > 100);
+}
+
+TEST_CASE("a move that makes a separator cheaper is found", "[dissect]") {
+  // A path whose separator is two vertices wide: one of them goes to its side.
+  const Pattern path = make_pattern({3, 3, 3, 3, 3, 3}, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}});
+  const Piece piece = piece_of(sg::graph::adjacency(path), path.dim, first(6));
+  Separation side{0, 0, 2, 2, 1, 1};
+  sg::order::refine(piece, sg::order::prices(piece, 3), 1, 1, side);
+  CHECK(std::count(side.begin(), side.end(), sg::order::in_separator) == 1);
+  CHECK(separates(piece, side));
+}
+
+TEST_CASE("the price of a separation is what its formula says", "[dissect]") {
+  Random random(8);
+  const Pattern pattern = odd_grid(random, 16);
+  const Piece piece = piece_of(sg::graph::adjacency(pattern), pattern.dim, first(200));
+  double inner = 0, outer = 0;
+  for (const int w : piece.inner_weight) inner += w;
+  for (const int w : piece.outer_weight) outer += w;
+  const double c = 50 / std::pow(inner, 0.6);
+  const auto prices = sg::order::prices(piece, 50);
+  for (std::size_t k = 1; k < prices.foretold.size(); ++k) {
+    for (const double b : {0.0, 7.0, 300.0}) {
+      const auto& f = prices.foretold[k];
+      const double w = static_cast<double>(k) * prices.step;
+      CHECK(f[0] + b * f[1] + b * b * f[2] == Approx(literal_foretold(w, b, c)));
+    }
+  }
+  sg::order::Sizes sizes;
+  sizes.side = {static_cast<std::int64_t>(0.4 * inner), static_cast<std::int64_t>(0.5 * inner)};
+  sizes.separator = static_cast<std::int64_t>(inner) - sizes.side[0] - sizes.side[1];
+  sizes.outer = {20, 30};
+  const auto separator = static_cast<double>(sizes.separator);
+  double expected = clique_cost(separator, outer);
+  for (const int k : {0, 1}) {
+    expected += literal_foretold(static_cast<double>(sizes.side[k]),
+                                 separator + static_cast<double>(sizes.outer[k]), c);
+  }
+  CHECK(sg::order::price(prices, sizes) == Approx(expected).epsilon(0.02));  // between entries
+  sizes.side = {0, static_cast<std::int64_t>(inner) - sizes.separator};
+  CHECK(std::isinf(sg::order::price(prices, sizes)));
 }
 
 TEST_CASE("a separator parts a wide graph in two, the same each time", "[dissect]") {
