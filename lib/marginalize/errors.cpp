@@ -1,11 +1,10 @@
 #include "lib/marginalize/errors.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <optional>
 
 #include "lib/graph/components.h"
 #include "lib/sparse/cholesky.h"
@@ -16,28 +15,25 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_steps = 40;
-constexpr int remembered = 5;     // steps
-constexpr double enough = 1e-10;  // of what is owed
+constexpr int most_corrections = 10;  // of what damping leaves
+constexpr int most_steps = 40;        // of a measurement
+constexpr double enough = 1e-14;      // of its error
+constexpr double closer = 0.7;        // than before, or the slope is renewed
+constexpr double smallest = 1e-4;     // part of a step
 // Added to the information of every scalar, as a part of it: next to nothing may be known of some directions.
 constexpr double damping = 1e-10;
 
 struct Settlement {
   const At& at;
   std::span<Measurement* const> measurements;
-  std::vector<MatrixXd> information;  // of every measurement without an error
-  bool conservative;
-  std::vector<int> start;   // of every vertex in the scalars of all
-  std::vector<bool> moves;  // vertices
-  VectorXd owed;            // but to those that do not
-
-  std::vector<Index> ends(const Measurement& m) const {
-    return m.of.second < 0 ? std::vector{m.of.first} : std::vector{m.of.first, m.of.second};
-  }
-  VectorXd of(const VectorXd& x, Index v) const {
-    return v < 0 ? VectorXd(0) : VectorXd(x.segment(start[v], at.dim(v)));
-  }
+  std::vector<MatrixXd> slope;  // of every measurement without an error
+  std::vector<int> start;       // of every vertex in the scalars of all
+  std::vector<bool> moves;      // vertices
 };
+
+std::vector<Index> ends(const Measurement& m) {
+  return m.of.second < 0 ? std::vector{m.of.first} : std::vector{m.of.first, m.of.second};
+}
 
 // One vertex of every part that only moves with the whole is held, and so are constants.
 std::vector<bool> moving(const At& at, std::span<Measurement* const> measurements) {
@@ -61,36 +57,6 @@ std::vector<bool> moving(const At& at, std::span<Measurement* const> measurement
   return moves;
 }
 
-// How many times more than without its error it knows, in some direction: its slope is M times what it was.
-double growth(const At& at, const Measurement& m, const MatrixXd& information) {
-  const MatrixXd before = slope(at, m.of);
-  const MatrixXd M =
-      slope(at, m.of, m.numbers) * before.transpose() *
-      (before * before.transpose()).llt().solve(MatrixXd::Identity(before.rows(), before.rows()));
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ratios(
-      M.transpose() * information * M, information, Eigen::EigenvaluesOnly);
-  return ratios.eigenvalues().maxCoeff();
-}
-
-// Makes the measurements those of vertices that have moved by x, and returns the gradient that is still owed.
-VectorXd still_owed(const Settlement& s, const VectorXd& x) {
-  VectorXd rest = s.owed;
-  for (std::size_t k = 0; k < s.measurements.size(); ++k) {
-    Measurement& m = *s.measurements[k];
-    m.numbers = measured(s.at, m.of, s.of(x, m.of.first), s.of(x, m.of.second));
-    m.information = s.information[k];
-    if (s.conservative) m.information /= std::max(1.0, growth(s.at, m, s.information[k]));
-    const Piece piece = piece_of(s.at, m);
-    int row = 0;
-    for (const Index v : piece.vertices) {
-      const int dim = s.at.dim(v);
-      if (s.moves[v]) rest.segment(s.start[v], dim) -= piece.gradient.segment(row, dim);
-      row += dim;
-    }
-  }
-  return rest;
-}
-
 // The system of all slopes as they are without errors, in the scalars that move.
 struct System {
   std::vector<int> place;  // of every scalar, -1 of one that does not move
@@ -110,9 +76,10 @@ bool factor_system(const Settlement& s, System& system) {
   sparse::Triplets lower;
   for (std::size_t k = 0; k < s.measurements.size(); ++k) {
     const Measurement& m = *s.measurements[k];
-    const MatrixXd J = slope(s.at, m.of), W = J.transpose() * s.information[k] * J;
+    const MatrixXd& J = s.slope[k];
+    const MatrixXd W = J.transpose() * m.information * J;
     std::vector<int> places;
-    for (const Index v : s.ends(m)) {
+    for (const Index v : ends(m)) {
       for (int i = s.start[v]; i < s.start[v + 1]; ++i) places.push_back(system.place[i]);
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -152,71 +119,148 @@ double size(const System& system, const VectorXd& gradient) {
   return std::sqrt(sum);
 }
 
-VectorXd weights(const System& system) {
-  VectorXd weight = VectorXd::Zero(system.place.size());
-  for (Eigen::Index i = 0; i < weight.size(); ++i) {
-    if (system.place[i] >= 0) weight[i] = std::sqrt(system.diagonal[system.place[i]]);
+// Its slopes times a step of all vertices.
+VectorXd along(const Settlement& s, std::size_t k, const VectorXd& x) {
+  const std::vector<Index> vertices = ends(*s.measurements[k]);
+  VectorXd own(total_dim(s.at, vertices));
+  int row = 0;
+  for (const Index v : vertices) {
+    own.segment(row, s.at.dim(v)) = x.segment(s.start[v], s.at.dim(v));
+    row += s.at.dim(v);
   }
-  return weight;
+  return s.slope[k] * own;
 }
 
-// The last changes of x, and what they changed of the step that a fixed system gives there.
-struct Memory {
-  std::deque<VectorXd> moved, changed;
-  VectorXd x, step;
-};
-
-// A step that learns from those before how the slopes of measurements change with their errors (Anderson, Iterative
-// procedures for nonlinear integral equations, 1965).
-VectorXd accelerated(Memory& memory, const VectorXd& weight, const VectorXd& x,
-                     const VectorXd& step) {
-  if (memory.x.size() > 0) {
-    memory.moved.push_back(x - memory.x);
-    memory.changed.push_back(step - memory.step);
-    if (std::ssize(memory.moved) > remembered) {
-      memory.moved.pop_front();
-      memory.changed.pop_front();
+// What is owed beyond the gradient that errors J_k x would have, were slopes what they are without errors.
+VectorXd still_owed(const Settlement& s, const VectorXd& owed, const VectorXd& x) {
+  VectorXd rest = owed;
+  for (std::size_t k = 0; k < s.measurements.size(); ++k) {
+    const Measurement& m = *s.measurements[k];
+    const VectorXd force = s.slope[k].transpose() * m.information * along(s, k, x);
+    int row = 0;
+    for (const Index v : ends(m)) {
+      rest.segment(s.start[v], s.at.dim(v)) -= force.segment(row, s.at.dim(v));
+      row += s.at.dim(v);
     }
   }
-  memory.x = x;
-  memory.step = step;
-  const auto count = static_cast<Eigen::Index>(memory.moved.size());
-  if (count == 0) return step;
-  MatrixXd changed(x.size(), count);
-  for (Eigen::Index k = 0; k < count; ++k) changed.col(k) = weight.cwiseProduct(memory.changed[k]);
-  const VectorXd share = changed.colPivHouseholderQr().solve(weight.cwiseProduct(step));
-  VectorXd result = step;
-  for (Eigen::Index k = 0; k < count; ++k)
-    result -= share[k] * (memory.moved[k] + memory.changed[k]);
+  return rest;
+}
+
+// A measurement as if its last vertex had moved by y from where the estimates have it.
+struct Moved {
+  const At& at;
+  const Measurable& of;
+  MatrixXd back;  // from its slope without an error: J^+
+
+  std::vector<double> numbers(const VectorXd& y) const {
+    const VectorXd none = VectorXd::Zero(of.second < 0 ? 0 : at.dim(of.first));
+    return of.second < 0 ? measured(at, of, y, none) : measured(at, of, none, y);
+  }
+  // M: its slope is M J.
+  MatrixXd turn(const std::vector<double>& numbers) const { return slope(at, of, numbers) * back; }
+  // How far its error is from M error.
+  VectorXd rest(const VectorXd& y, const VectorXd& error) const {
+    const std::vector<double> z = numbers(y);
+    return turn(z) * error - lack(at, of, z);
+  }
+};
+
+MatrixXd numerical_slope(const Moved& moved, const VectorXd& y, const VectorXd& error) {
+  constexpr double h = 1e-6;
+  MatrixXd result(y.size(), y.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const VectorXd unit = h * VectorXd::Unit(y.size(), i);
+    result.col(i) = (moved.rest(y + unit, error) - moved.rest(y - unit, error)) / (2 * h);
+  }
   return result;
+}
+
+// y with which nothing is left of `rest`. Newton's method, with the slope J of the measurement as long as that comes closer
+// fast. information: to measure by.
+VectorXd solved(const Moved& moved, const VectorXd& error, const MatrixXd& J,
+                const MatrixXd& information) {
+  const auto size = [&](const VectorXd& r) { return std::sqrt(r.dot(information * r)); };
+  const Eigen::PartialPivLU<MatrixXd> first(J);
+  VectorXd y = first.solve(error), rest = moved.rest(y, error);
+  bool anew = false;
+  for (int step = 0; step < most_steps && size(rest) > enough * size(error); ++step) {
+    const VectorXd towards =
+        anew ? VectorXd(-numerical_slope(moved, y, error).partialPivLu().solve(rest))
+             : VectorXd(first.solve(rest));
+    double length = 1;
+    VectorXd next = y + towards, then = moved.rest(next, error);
+    if (!anew && !(size(then) < closer * size(rest))) {
+      anew = true;
+      continue;
+    }
+    while (!(size(then) < size(rest)) && length > smallest) {
+      length /= 2;
+      next = y + length * towards;
+      then = moved.rest(next, error);
+    }
+    if (!(size(then) < size(rest))) break;
+    y = next;
+    rest = then;
+  }
+  return y;
+}
+
+void set_error(const Settlement& s, std::size_t k, const VectorXd& x) {
+  Measurement& m = *s.measurements[k];
+  const VectorXd error = along(s, k, x);
+  if (error.isZero(0)) return;
+  const MatrixXd& J = s.slope[k];
+  const auto d = J.rows();
+  const Moved moved{s.at, m.of,
+                    J.transpose() * (J * J.transpose()).llt().solve(MatrixXd::Identity(d, d))};
+  m.numbers =
+      moved.numbers(solved(moved, error, J.rightCols(s.at.dim(ends(m).back())), m.information));
+  const Eigen::PartialPivLU<MatrixXd> turn(moved.turn(m.numbers));
+  const MatrixXd half = turn.transpose().solve(m.information);
+  const MatrixXd W = turn.transpose().solve(half.transpose());
+  m.information = (W + W.transpose()) / 2;
+}
+
+// x, by scalar of all vertices; nothing where nothing moves.
+std::optional<VectorXd> displacement(const Settlement& s, const VectorXd& owed) {
+  System system;
+  if (!factor_system(s, system)) return std::nullopt;
+  const double whole = size(system, owed);
+  VectorXd x = VectorXd::Zero(owed.size()), rest = owed;
+  for (int k = 0; k < most_corrections && size(system, rest) > 1e-12 * whole; ++k) {
+    const VectorXd next = x + solved(system, rest), then = still_owed(s, owed, next);
+    if (!(size(system, then) < size(system, rest))) break;
+    x = next;
+    rest = then;
+  }
+  return x;
+}
+
+Settlement settlement(const At& at, std::span<Measurement* const> measurements) {
+  Settlement s{at, measurements, {}, starts_of_all(at), moving(at, measurements)};
+  for (const Measurement* m : measurements) s.slope.push_back(slope(at, m->of));
+  return s;
 }
 
 }  // namespace
 
-void set_errors(const At& at, const VectorXd& owed, bool conservative,
-                std::span<Measurement* const> measurements) {
-  Settlement s{at, measurements, {}, conservative, {0}, moving(at, measurements), owed};
-  for (Index v = 0; v < at.problem.graph->vertices(); ++v) {
-    s.start.push_back(s.start.back() + at.dim(v));
-    if (!s.moves[v]) s.owed.segment(s.start[v], at.dim(v)).setZero();
+void set_errors(const At& at, const VectorXd& owed, std::span<Measurement* const> measurements) {
+  const Settlement s = settlement(at, measurements);
+  const auto x = displacement(s, owed);
+  if (!x) return;
+  for (std::size_t k = 0; k < measurements.size(); ++k) set_error(s, k, *x);
+}
+
+std::vector<double> strains(const At& at, const VectorXd& owed,
+                            std::span<Measurement* const> measurements) {
+  const Settlement s = settlement(at, measurements);
+  const auto x = displacement(s, owed);
+  std::vector<double> result(measurements.size(), 0);
+  for (std::size_t k = 0; x && k < measurements.size(); ++k) {
+    const VectorXd error = along(s, k, *x);
+    result[k] = error.dot(measurements[k]->information * error) / 2;
   }
-  for (const Measurement* m : measurements) s.information.push_back(m->information);
-  System system;
-  if (!factor_system(s, system)) return;
-  const VectorXd weight = weights(system);
-  const double whole = size(system, s.owed);
-  VectorXd x = VectorXd::Zero(owed.size()), rest = s.owed, best = x;
-  double least = whole;
-  Memory memory;
-  for (int k = 0; k < most_steps && least > enough * whole; ++k) {
-    x += accelerated(memory, weight, x, solved(system, rest));
-    rest = still_owed(s, x);
-    if (size(system, rest) < least) {
-      least = size(system, rest);
-      best = x;
-    }
-  }
-  still_owed(s, best);
+  return result;
 }
 
 }  // namespace sg::marginalize

@@ -3,8 +3,10 @@
 // errors that are as small as they can be,
 //     r_k = J_k x,    sum_k J_k' W_k J_k x = what is owed,
 // over all that is recovered at once: what one piece owes to a vertex and another owes in return needs no error at all.
-// The slopes of measurements depend on their errors; so x is refined until the gradient of the measurements as they will
-// be read is what is owed, or where it cannot be, comes no nearer.
+//
+// The slopes of measurements depend on their errors, where these are large. Its slope with an error is M J_k, M a matrix that
+// turns what is measured, since it still notices no motion of both its vertices. So each by itself is given the error
+// M r_k and the information M^-T W_k M^-1: it pulls by J_k' W_k r_k, and knows J_k' W_k J_k, as without an error.
 #pragma once
 
 #include <span>
@@ -13,9 +15,13 @@
 
 namespace sg::marginalize {
 
-// owed: by scalar of all vertices' steps, one vertex behind the other. Of constants it does not matter. conservative: an
-// error must not make a measurement know more; it knows less then.
-void set_errors(const At& at, const Eigen::VectorXd& owed, bool conservative,
+// Of measurements that say what the estimates say. owed: by scalar of all vertices' steps, one vertex behind the other. Of
+// constants it does not matter.
+void set_errors(const At& at, const Eigen::VectorXd& owed,
                 std::span<Measurement* const> measurements);
+
+// Half of r_k' W_k r_k: what each would have of the graph's chi-square at the estimates.
+std::vector<double> strains(const At& at, const Eigen::VectorXd& owed,
+                            std::span<Measurement* const> measurements);
 
 }  // namespace sg::marginalize

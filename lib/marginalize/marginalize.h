@@ -6,28 +6,11 @@
 // neighbour goes in its turn. It says what the estimates say, and owes the gradient, until all is recovered (errors.h).
 #pragma once
 
-#include <functional>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "lib/graph/pattern.h"
-#include "lib/marginalize/topology.h"
+#include "lib/marginalize/pass.h"
 
 namespace sg::marginalize {
-
-// What is eliminated together before it is made sparse: every vertex alone, by ascending id; runs of poses without one
-// that stays between them, landmarks alone; all that edges connect, as long as what they leave has no more than
-// most_scalars.
-enum class Clusters : std::uint8_t { online, batch, global };
-constexpr int most_scalars = 48;
-
-struct Rule {
-  bool linear = false;     // leave linear factors: exact
-  Sparsity sparsity = {};  // of what is recovered otherwise
-  Clusters clusters = Clusters::online;
-  bool conservative = false;  // no piece knows more than it did
-};
 
 struct Marginalization {
   std::vector<bool> vertex, edge;  // n, m: what goes
@@ -46,6 +29,6 @@ graph::GraphPattern pattern_left(const Graph& graph, const Marginalization& resu
 // leaves; its price is that, a unit of EC, which a tree loses a unit of its own, times Sparsity::price, or the least that
 // an EC allows, found by bisection.
 Marginalization marginalize(const At& at, const std::vector<bool>& removed, const Rule& rule,
-                            const std::function<void(Index)>& progress = {});
+                            const Progress& progress = {});
 
 }  // namespace sg::marginalize

@@ -122,6 +122,11 @@ Eigen::MatrixXd slope(const At& at, const Measurable& of, const std::vector<doub
   return block.leftCols(block.cols() - 1);
 }
 
+Eigen::VectorXd lack(const At& at, const Measurable& of, const std::vector<double>& numbers) {
+  const int dim = factor::find_model(of.type)->dim;
+  return linearized(at, of, numbers, Eigen::MatrixXd::Identity(dim, dim)).rightCols<1>();
+}
+
 Piece piece_of(const At& at, const Measurement& m) {
   const Eigen::MatrixXd block = linearized(at, m.of, m.numbers, m.information);
   Piece piece;

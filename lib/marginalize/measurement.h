@@ -35,6 +35,9 @@ std::vector<double> measured(const At& at, const Measurable& of);
 Eigen::MatrixXd slope(const At& at, const Measurable& of);
 Eigen::MatrixXd slope(const At& at, const Measurable& of, const std::vector<double>& numbers);
 
+// Minus the error of these numbers.
+Eigen::VectorXd lack(const At& at, const Measurable& of, const std::vector<double>& numbers);
+
 Piece piece_of(const At& at, const Measurement& measurement);
 
 // The parameter line that its type refers to, if any: a sensor where the pose is.

@@ -113,6 +113,12 @@ std::vector<int> starts(const At& at, std::span<const Index> vertices) {
   return result;
 }
 
+std::vector<int> starts_of_all(const At& at) {
+  std::vector<Index> all(at.problem.graph->vertices());
+  std::iota(all.begin(), all.end(), 0);
+  return starts(at, all);
+}
+
 bool is_absolute(const At& at, Index e) {
   const Graph& graph = *at.problem.graph;
   const auto ends = graph.edge(e);

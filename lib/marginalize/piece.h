@@ -33,6 +33,8 @@ struct Piece {
 int total_dim(const At& at, std::span<const Index> vertices);
 // Where the step of each starts in the step of all, and the end.
 std::vector<int> starts(const At& at, std::span<const Index> vertices);
+// Of all vertices of the graph.
+std::vector<int> starts_of_all(const At& at);
 
 // Whether an edge tells where the whole is.
 bool is_absolute(const At& at, Index e);

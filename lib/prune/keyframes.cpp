@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/geometry/numbers.h"
+#include "lib/graph/linear.h"
 #include "lib/text/error.h"
 
 namespace sg::prune {
@@ -34,14 +35,19 @@ void require_fusible(const Graph& graph, Index e, const std::string& which) {
   }
 }
 
+// What there is for a factor that cannot be composed.
+std::string other_way(const Graph& graph, Index e) {
+  return graph::is_linear(graph.edge_tag(e)) ? " (sg-marg takes poses out of linear factors)" : "";
+}
+
 // Throws unless all edges of step k can be composed, and fused if there are several.
 void require_composable(const Graph& graph, const graph::Lists<>& odometry, Index k) {
   for (Index e : odometry[k]) {
     const graph::EdgeType& type = graph.type_of_edge(e);
     if (!is_motion(graph.edge_tag(e)) || graph.edge_type[e] != graph.edge_type[odometry[k][0]]) {
-      throw graph::error_at(
-          graph, graph.edge_line[e],
-          "cannot compose odometry of type " + type.tag + " across dropped poses");
+      throw graph::error_at(graph, graph.edge_line[e],
+                            "cannot compose odometry of type " + type.tag +
+                                " across dropped poses" + other_way(graph, e));
     }
     if (odometry[k].size() > 1) require_fusible(graph, e, "of one step");
   }
@@ -140,9 +146,9 @@ void refuse_motion_of_many(const Keyframing& kf, Index e) {
   for (Index v : kf.graph.edge(e)) {
     if (kf.poses.index[v] < 0) continue;
     if (first >= 0 && v != first) {
-      throw graph::error_at(
-          kf.graph, kf.graph.edge_line[e],
-          "cannot compose " + kf.graph.type_of_edge(e).tag + " across dropped poses");
+      throw graph::error_at(kf.graph, kf.graph.edge_line[e],
+                            "cannot compose " + kf.graph.type_of_edge(e).tag +
+                                " across dropped poses" + other_way(kf.graph, e));
     }
     first = v;
   }

@@ -86,41 +86,6 @@ void stack(const LinearSystem& reference, const LinearSystem& graph,
   }
 }
 
-// log det of the information of the variables that the graph does not have, given the others; nothing where it is
-// singular.
-std::optional<double> log_det_of_rest(const LinearSystem& system,
-                                      const std::vector<Index>& variables) {
-  const graph::Pattern& whole = *system.pattern;
-  std::vector<Index> number(whole.variables(), 0);
-  for (const Index j : variables) number[j] = -1;
-  graph::Pattern rest;
-  for (Index j = 0; j < whole.variables(); ++j) {
-    if (number[j] < 0) continue;
-    number[j] = rest.variables();
-    rest.dim.push_back(whole.dim[j]);
-  }
-  if (rest.dim.empty()) return 0;
-  LinearSystem part{&rest, {}, {0}, {}};
-  for (Index r = 0; r < whole.rows.size(); ++r) {
-    const double* block = system.block(r);
-    for (const Index j : whole.rows[r]) {
-      const int size = system.height[r] * whole.dim[j];
-      if (number[j] >= 0) {
-        rest.rows.items.push_back(number[j]);
-        part.numbers.insert(part.numbers.end(), block, block + size);
-      }
-      block += size;
-    }
-    part.numbers.insert(part.numbers.end(), block, block + system.height[r]);
-    rest.rows.close();
-    part.height.push_back(system.height[r]);
-    part.begin.push_back(static_cast<Offset>(part.numbers.size()));
-  }
-  auto elimination = eliminated(part);
-  if (!elimination) return std::nullopt;
-  return solve::log_determinant(*elimination);
-}
-
 // A x and A' y of some rows of a system.
 struct Rows {
   const LinearSystem& system;
@@ -210,7 +175,9 @@ std::optional<Divergence> divergence(const Graph& graph, const Graph& reference)
   Both both;
   stack(p, q, *variables, both);
   auto of_p = eliminated(both.reference), of_q = eliminated(q);
-  const auto rest = log_det_of_rest(p, *variables);
+  std::vector<bool> is_rest(p.pattern->variables(), true);
+  for (const Index j : *variables) is_rest[j] = false;
+  const auto rest = solve::log_determinant_given_others(p, is_rest);
   if (!of_p || !of_q || !rest) return std::nullopt;
 
   const Rows rows{both.graph, p.pattern->rows.size(), of_p->step_at};

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lib/order/order.h"
 #include "lib/solve/assembly.h"
 
 namespace sg::solve {
@@ -162,6 +163,23 @@ std::vector<int> places(std::span<const Run> runs) {
   return result;
 }
 
+// Calls visit(r, A_r, covariance of its variables) for every row of the system that is not zero.
+void each_row_block(Elimination& e, const factor::LinearSystem& system, const auto& visit) {
+  each_clique(e, [&](Index c, const Below& here, const Padded& above) {
+    MatrixXd joint;
+    for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i) {
+      const Index r = e.rows.items[i];
+      const std::span block(system.block(r), system.block(r + 1));
+      if (std::ranges::all_of(block, [](double x) { return x == 0; })) continue;
+      if (joint.size() == 0) joint = whole(here, above).view();
+      const std::vector<int> at = places(e.row_runs[i]);
+      const Eigen::Map<const MatrixXd> A(block.data(), system.height[r],
+                                         static_cast<Eigen::Index>(at.size()));
+      visit(r, A, joint(at, at));
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<MatrixXd> marginal_covariances(Elimination& e) {
@@ -174,20 +192,50 @@ std::vector<MatrixXd> marginal_covariances(Elimination& e) {
 
 std::vector<double> row_variances(Elimination& e, const factor::LinearSystem& system) {
   std::vector<double> result(system.height.size(), 0);
-  each_clique(e, [&](Index c, const Below& here, const Padded& above) {
-    MatrixXd joint;
-    for (Index i = e.rows.begin[c]; i < e.rows.begin[c + 1]; ++i) {
-      const Index r = e.rows.items[i];
-      const std::span block(system.block(r), system.block(r + 1));
-      if (std::ranges::all_of(block, [](double x) { return x == 0; })) continue;
-      if (joint.size() == 0) joint = whole(here, above).view();
-      const std::vector<int> at = places(e.row_runs[i]);
-      const Eigen::Map<const MatrixXd> A(block.data(), system.height[r],
-                                         static_cast<Eigen::Index>(at.size()));
-      result[r] = (A * joint(at, at)).cwiseProduct(A).sum();
-    }
+  each_row_block(e, system, [&](Index r, const auto& A, const MatrixXd& S) {
+    result[r] = (A * S).cwiseProduct(A).sum();
   });
   return result;
+}
+
+std::vector<MatrixXd> row_covariances(Elimination& e, const factor::LinearSystem& system) {
+  std::vector<MatrixXd> result(system.height.size());
+  each_row_block(e, system, [&](Index r, const auto& A, const MatrixXd& S) {
+    result[r] = A * S * A.transpose();
+  });
+  return result;
+}
+
+std::optional<double> log_determinant_given_others(const factor::LinearSystem& system,
+                                                   const std::vector<bool>& some) {
+  const graph::Pattern& whole = *system.pattern;
+  std::vector<Index> number(whole.variables(), -1);
+  graph::Pattern rest;
+  for (Index j = 0; j < whole.variables(); ++j) {
+    if (!some[j]) continue;
+    number[j] = rest.variables();
+    rest.dim.push_back(whole.dim[j]);
+  }
+  if (rest.dim.empty()) return 0;
+  factor::LinearSystem part{&rest, {}, {0}, {}};
+  for (Index r = 0; r < whole.rows.size(); ++r) {
+    const double* block = system.block(r);
+    for (const Index j : whole.rows[r]) {
+      const int size = system.height[r] * whole.dim[j];
+      if (number[j] >= 0) {
+        rest.rows.items.push_back(number[j]);
+        part.numbers.insert(part.numbers.end(), block, block + size);
+      }
+      block += size;
+    }
+    part.numbers.insert(part.numbers.end(), block, block + system.height[r]);
+    rest.rows.close();
+    part.height.push_back(system.height[r]);
+    part.begin.push_back(static_cast<Offset>(part.numbers.size()));
+  }
+  auto elimination = eliminated(part, order::elimination_order("wmf", rest));
+  if (!elimination) return std::nullopt;
+  return log_determinant(*elimination);
 }
 
 void solve_normal_equations(Elimination& e, Eigen::VectorXd& x) {

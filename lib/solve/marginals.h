@@ -11,6 +11,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,14 @@ std::vector<Eigen::MatrixXd> marginal_covariances(Elimination& elimination);
 // Of the system's rows, which are of the same structure as those that were eliminated and may be of other numbers: of
 // every row A_r the trace of A_r S A_r', S the covariance of all variables.
 std::vector<double> row_variances(Elimination& elimination, const factor::LinearSystem& system);
+// The same whole, A_r S A_r'; empty of a row of zeros.
+std::vector<Eigen::MatrixXd> row_covariances(Elimination& elimination,
+                                             const factor::LinearSystem& system);
+
+// log det of the information that some variables of a system have where the others are known: of W_RR. The marginal of the
+// others has log det W less by that. Nothing where it is singular.
+std::optional<double> log_determinant_given_others(const factor::LinearSystem& system,
+                                                   const std::vector<bool>& some);
 
 // x := S x, by scalar of a step.
 void solve_normal_equations(Elimination& elimination, Eigen::VectorXd& x);

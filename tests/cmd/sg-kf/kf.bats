@@ -183,3 +183,30 @@ joins() { awk '/^EDGE/ {printf "%s-%s %.6g %.6g,", $2, $3, $4, $5}' "$@"; }
     sg-kf -r 2 -o out.g2o indefinite.g2o
   [ ! -e out.g2o ]
 }
+
+@test "a linear factor is composed by sg-marg alone, and the line that is in the way is named" {
+  sg-marg --ids 101 --topology dense walk.g2o -o three.g2o
+  line=$(grep -n '^EDGE_LINEAR' three.g2o | cut -d: -f1)
+  [[ "$(sed -n "${line}p" three.g2o)" == "EDGE_LINEAR_RELATIVE 2 2 3 4 "* ]]
+  fails 1 "sg-kf: three.g2o:$line: cannot compose EDGE_LINEAR_RELATIVE across dropped poses (sg-marg takes poses out of linear factors)" \
+    sg-kf -r 2 three.g2o
+  sg-marg --ids 3 --topology dense three.g2o -o less.g2o
+  near "$(sg-score --no-header -f kld --reference walk.g2o less.g2o)" 0
+  grep -v XY walk.g2o | sg-marg --ids 1 --topology dense -o odometry.g2o
+  line=$(grep -n '^EDGE_LINEAR' odometry.g2o | cut -d: -f1)
+  fails 1 "sg-kf: odometry.g2o:$line: cannot compose odometry of type EDGE_LINEAR_RELATIVE across dropped poses (sg-marg takes poses out of linear factors)" \
+    sg-kf -r 2 odometry.g2o
+}
+
+@test "linear factors to what prunes: a closure may go, a factor of three stays" {
+  sg-gen manhattan -n 60 --seed 3 | sg-solve -q -o full.g2o
+  sg-marg -r 2 --topology dense full.g2o -o left.g2o
+  many() { awk '/^EDGE_LINEAR/ && $3 > 1 {++n} END {print n + 0}' "$1"; }
+  [ "$(many left.g2o)" -gt 0 ]
+  for policy in 'sg-dec -r 9' 'sg-rand -r 9' 'sg-tgreedy -r 9' 'sg-ecgreedy -p 0.1'; do
+    echo "$policy"
+    $policy -q left.g2o -o pruned.g2o
+    [ "$(many pruned.g2o)" = "$(many left.g2o)" ]
+    sg-check -q pruned.g2o
+  done
+}

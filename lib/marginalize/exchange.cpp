@@ -1,0 +1,193 @@
+#include "lib/marginalize/exchange.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "lib/graph/components.h"
+#include "lib/marginalize/errors.h"
+#include "lib/order/order.h"
+
+namespace sg::marginalize {
+namespace {
+
+constexpr int most_turns = 15, patience = 2;
+constexpr int few_steps = 3, most_steps = 30;  // of fitting, within a turn and at last
+constexpr double gap = 0.02;                   // that fitting may leave, in nats
+constexpr double factor_cost = 100;            // of any, beside elimination
+constexpr double next_to_nothing = 1e-9;       // of what a measurement could say
+
+// Which vertices stand in one rigid body: of landmarks those that something places. The last stands for the world.
+struct Bodies {
+  const At& at;
+  graph::DisjointSets parts;
+  std::vector<bool> placed;  // landmarks
+
+  explicit Bodies(const At& where)
+      : at(where),
+        parts(where.problem.graph->vertices() + 1),
+        placed(where.problem.graph->vertices(), false) {}
+};
+
+Index world(const Bodies& bodies) {
+  return bodies.at.problem.graph->vertices();
+}
+bool is_pose(const Bodies& bodies, Index v) {
+  return bodies.at.problem.graph->role(v) == graph::Role::pose;
+}
+// Of a pose and a landmark: one tells where the landmark is beside the pose, not where the pose is.
+bool places_landmark(const Bodies& bodies, const Measurable& of) {
+  return of.second >= 0 && is_pose(bodies, of.first) && !is_pose(bodies, of.second);
+}
+// Whether it makes one body of two.
+bool joins(Bodies& bodies, const Measurable& of) {
+  const Index other = of.second < 0 ? world(bodies) : of.second;
+  if (!places_landmark(bodies, of)) return join(bodies.parts, of.first, other);
+  if (bodies.placed[of.second]) return false;
+  bodies.placed[of.second] = true;
+  return join(bodies.parts, of.first, of.second);
+}
+bool is_within(Bodies& bodies, const Measurable& of) {
+  return find(bodies.parts, of.first) ==
+         find(bodies.parts, of.second < 0 ? world(bodies) : of.second);
+}
+
+// Marks those that hold together what is recovered: taken ones by descending worth, poses first. Edges that stay do not
+// count. They may hold as well, but cannot have an error: without it, what is owed on one side could not be brought.
+std::vector<bool> indispensable(const Whole& whole, const std::vector<Offer>& offers,
+                                std::span<const Index> by_worth, Bodies& bodies) {
+  const Graph& graph = *whole.at.problem.graph;
+  for (Index v = 0; v < graph.vertices(); ++v) {
+    if (graph.fixed[v]) join(bodies.parts, v, world(bodies));
+  }
+  std::vector<bool> result(offers.size(), false);
+  for (const bool landmarks : {false, true}) {
+    for (const Index k : by_worth) {
+      const Measurable& of = offers[k].of;
+      if (offers[k].taken && places_landmark(bodies, of) == landmarks && joins(bodies, of))
+        result[k] = true;
+    }
+  }
+  return result;
+}
+
+struct Move {
+  Index offer;
+  double gain;  // nats, EC for its price
+};
+
+// All that gain, those that gain most first.
+std::vector<Move> moves(const Whole& whole, double rate, const std::vector<Offer>& offers,
+                        std::span<const double> strain, const graph::Order& order) {
+  std::vector<double> worth = worths(whole, offers);
+  for (std::size_t k = 0; k < worth.size(); ++k) worth[k] += strain[k];
+  std::vector<Index> by_worth(offers.size());
+  std::iota(by_worth.begin(), by_worth.end(), 0);
+  std::ranges::stable_sort(by_worth, std::greater(), [&](Index k) { return worth[k]; });
+  Bodies bodies(whole.at);
+  const std::vector<bool> stays = indispensable(whole, offers, by_worth, bodies);
+
+  graph::Lists<> factors;
+  for (std::size_t k = 0; k < offers.size(); ++k) {
+    if (stays[k]) factors.add(ends_of(offers[k].of));
+  }
+  graph::GraphPattern least =
+      pattern_left(*whole.at.problem.graph, whole.removed, whole.edge_gone, factors);
+  Prices sheet = prices(least, order, whole.removed, rate);
+  const auto cost = [&](Index k) {
+    return rate * (elim::to_double(price(sheet, offers[k].of)) + factor_cost);
+  };
+  std::vector<Move> result;
+  for (const Index k : by_worth) {
+    if (!offers[k].taken || stays[k]) continue;
+    const double gain = cost(k) - worth[k];
+    pay(sheet, offers[k].of);
+    if (gain > 0 && is_within(bodies, offers[k].of)) result.push_back({k, gain});
+  }
+  for (const Index k : by_worth) {
+    if (offers[k].taken) continue;
+    const double gain = worth[k] - cost(k);
+    if (gain > 0) result.push_back({k, gain});
+  }
+  std::ranges::stable_sort(result, std::greater(), &Move::gain);
+  return result;
+}
+
+// Makes those of the moves that share no vertex; returns how many.
+int make(std::span<const Move> moves, const Graph& graph, std::vector<Offer>& offers) {
+  std::vector<bool> touched(graph.vertices(), false);
+  int made = 0;
+  for (const Move& move : moves) {
+    Offer& offer = offers[move.offer];
+    const std::vector<Index> ends = ends_of(offer.of);
+    if (std::ranges::any_of(ends, [&](Index v) { return touched[v]; })) continue;
+    for (const Index v : ends) touched[v] = true;
+    offer.taken = !offer.taken;
+    const auto d = offer.truth.rows();
+    if (offer.taken)
+      offer.information =
+          next_to_nothing * offer.truth.llt().solve(Eigen::MatrixXd::Identity(d, d));
+    ++made;
+  }
+  return made;
+}
+
+// Of every offer, 0 of those that are not taken.
+std::vector<double> strains(const Whole& whole, const Eigen::VectorXd& owed,
+                            const std::vector<Offer>& offers) {
+  std::vector<Measurement> taken;
+  for (const Offer& offer : offers) {
+    if (offer.taken) taken.push_back({offer.of, measured(whole.at, offer.of), offer.information});
+  }
+  std::vector<Measurement*> pointers;
+  for (Measurement& m : taken) pointers.push_back(&m);
+  const std::vector<double> of_taken = strains(whole.at, owed, pointers);
+  std::vector<double> result(offers.size(), 0);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < offers.size(); ++k) {
+    if (offers[k].taken) result[k] = of_taken[next++];
+  }
+  return result;
+}
+
+}  // namespace
+
+void exchange(const Whole& whole, const Eigen::VectorXd& owed, double rate,
+              std::vector<Offer>& offers, const std::function<void(const State&)>& see) {
+  std::vector<Offer> best;
+  double least = std::numeric_limits<double>::infinity();
+  int without = 0;
+  std::vector<double> strain;
+  graph::Order order;
+  // Shows what there is, fitted; returns what it loses and costs, infinite where it is not determined.
+  const auto show = [&](int steps) {
+    const auto lost = fit(whole, offers, gap, steps);
+    if (!lost) return std::numeric_limits<double>::infinity();
+    const graph::Pattern left = pattern_left(whole, offers).pattern;
+    order = order::elimination_order("wmf", left);
+    strain = strains(whole, owed, offers);
+    const State state{offers, elim::to_double(elim::elimination_complexity(left, order)), *lost,
+                      std::accumulate(strain.begin(), strain.end(), 0.0)};
+    see(state);
+    return state.lost + state.strain + rate * state.ec;
+  };
+  for (int turn = 0; turn < most_turns && without <= patience; ++turn) {
+    const double now = show(few_steps);
+    if (std::isinf(now)) break;
+    ++without;
+    if (now < least) {
+      least = now;
+      best = offers;
+      without = 0;
+    }
+    if (make(moves(whole, rate, offers, strain, order), *whole.at.problem.graph, offers) == 0)
+      break;
+  }
+  if (best.empty()) return;
+  offers = std::move(best);
+  show(most_steps);
+}
+
+}  // namespace sg::marginalize
