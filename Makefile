@@ -122,7 +122,7 @@ front: build build/packages/plot ## what every policy keeps and loses at many bu
 regimes: build build/packages/plot ## where pruning pays and which policy, on a grid of worlds, into out/regimes
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/regimes OUT=$(CURDIR)/out/regimes
 
-budget: build ## what a budget of EC buys online, into out/budget
+budget: build build/packages/plot ## what a budget of EC buys online, into out/budget
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/budget OUT=$(CURDIR)/out/budget
 
 starts: build ## every start of sg-solve on every graph, into out/starts (GRAPHS="..." adds yours)

@@ -39,6 +39,9 @@ struct Options {
   std::string truth;
 };
 
+// As solve::Spend has them.
+const std::vector<std::string> spends{"window", "measurements", "keyframes", "mixed"};
+
 bool has_budget(const Options& options) {
   return options.budget > 0 || options.budget_ms;
 }
@@ -87,6 +90,7 @@ struct Row {
 };
 
 constexpr const char* spending_measurements = "--spend measurements";
+constexpr const char* composing = "--spend keyframes or mixed";
 constexpr const char* letting_go = "a lag or a budget";
 
 const std::vector<cmd::Column<Row>> columns{
@@ -112,8 +116,7 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return elimination_seconds(row.isam, row.whole().order); }, "--batch"},
     {"ec_step", "What the step eliminated, of ec_bt", [](Row& row) { return row.report.ec; },
      letting_go},
-    {"window", "Poses that are there", [](Row& row) { return row.step - row.window.first + 1; },
-     letting_go},
+    {"window", "Poses that are there", [](Row& row) { return row.window.there; }, letting_go},
     {"dropped", "Edges so far that named what had left",
      [](Row& row) { return row.window.dropped; }, letting_go},
     {"offered", "Closures and observations so far",
@@ -122,6 +125,10 @@ const std::vector<cmd::Column<Row>> columns{
      [](Row& row) { return row.window.admission.admitted; }, spending_measurements},
     {"returned", "Of these, those given back later",
      [](Row& row) { return row.window.admission.returned; }, spending_measurements},
+    {"composed", "Poses so far that were composed",
+     [](Row& row) { return row.window.keyframes.composed; }, composing},
+    {"moved", "Edges so far that this has moved",
+     [](Row& row) { return row.window.keyframes.moved; }, composing},
     {"budget", "Bound of ec_bt", [](Row& row) { return row.window.options.budget; }, "a budget"},
     {"violations", "Steps so far that ended above the budget", &Row::violations, "a budget"},
     {"renewed", "Steps so far that ordered the whole anew",
@@ -162,12 +169,11 @@ void add_window(CLI::App& app, Options& options) {
   app.add_option_function<std::string>(
          "--spend",
          [&options](const std::string& what) {
-           options.window.spend =
-               what == "window" ? solve::Spend::window : solve::Spend::measurements;
+           options.window.spend = solve::Spend(std::ranges::find(spends, what) - spends.begin());
          },
-         "What gives: window (default) or measurements")
+         "window (default), measurements, keyframes or mixed")
       ->option_text("WHAT")
-      ->check(cmd::one_of({"window", "measurements"}));
+      ->check(cmd::one_of(spends));
   app.add_option("--budget-ms", options.budget_ms, "The same in milliseconds, as steps took so far")
       ->option_text("X")
       ->check(cmd::number(0));
@@ -257,8 +263,10 @@ void replay(const cmd::Command& command, const std::string& file, const std::str
 
 // Vertices that never entered stay where they were.
 void write_graph(const cmd::Command& command, const Options& options,
-                 const factor::Problem& problem, solve::Isam2Replay& replay) {
+                 const factor::Problem& problem, solve::Isam2Window& window) {
+  solve::Isam2Replay& replay = window.replay;
   if (options.window.smooth) solve::smooth_past(replay.isam);
+  solve::place_composed(replay, window.keyframes);
   factor::Values values = factor::start_values(problem);
   std::vector<bool> moved(problem.graph->vertices(), false);
   for (Index v = 0; v < problem.graph->vertices(); ++v) {
@@ -295,7 +303,7 @@ void run_file(const cmd::Command& command, const Options& options, const std::st
     solve::Isam2Window state =
         solve::make_isam2_window(problem, isam, options.min_obs, options.from_file, window);
     replay(command, path, ordering, options, truth, state, table);
-    if (!options.output.path.empty()) write_graph(command, options, problem, state.replay);
+    if (!options.output.path.empty()) write_graph(command, options, problem, state);
   }
 }
 
@@ -320,6 +328,8 @@ void run(const cmd::Command& command, const Options& options) {
       {"--batch", options.batch},
       {letting_go, lets_go(options)},
       {spending_measurements, options.window.spend == solve::Spend::measurements},
+      {composing, options.window.spend == solve::Spend::keyframes ||
+                      options.window.spend == solve::Spend::mixed},
       {"a budget", has_budget(options)},
       {"--renew", options.window.renew > 0},
       {"--truth", !options.truth.empty()},

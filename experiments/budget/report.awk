@@ -1,69 +1,114 @@
-# budget.tsv as Markdown: where we lose, then every world and budget; errors as means over the seeds, ratios as geometric means.
-BEGIN { FS = "\t"; ways = split("window measurements lag kf dec", way, " ") }
-NR == 1 { next }
-$5 == "plain" { plain[$1] += $9; plain_final[$1] += $10; ++seeds[$1]; next }
+# budget.tsv as Markdown: where we lose, then every world and share; errors as means over the seeds, ratios as geometric means.
+# With hindsight: of the lags that never break the budget the longest; of the rates that do not, the one that ends at the least error.
+BEGIN { FS = "\t"; spends = split("window measurements keyframes mixed", spend, " "); split("lag kf dec", fixed, " ") }
+NR == 1 || $5 == "-" { if (NR > 1) ++failed[$1, $3]; next }
 {
-  key = $1 FS $3
-  if (!(key in seen)) { seen[key]; keys[++n] = key }
-  if ($9 == "-") { ++failed[key, $5]; next }
-  ++count[key, $5]; violations[key, $5] += $8; online[key, $5] += $9; final[key, $5] += $10; of_online[key, $2, $5] = $9
-  of_final[key, $2, $5] = $10
-  if ($14 / $4 > steps[key, $5]) steps[key, $5] = $14 / $4
-  if (!($2 in met)) { met[$2]; seed[++s] = $2 }
+  split($3, part, /[@+]/)
+  if (!($1 in known)) { known[$1]; world[++worlds] = $1 }
+  if (!(($1, $2) in cell)) { cell[$1, $2]; seeds[$1] = seeds[$1] " " $2 }
+  key = $1 SUBSEP $2 SUBSEP $3
+  most[key] = $5; broken[key] = $6; online[key] = $7; final[key] = $8; seconds[key] = $9; step[key] = $10; p95[key] = $12; p99[key] = $13
+  if (part[1] == "plain") whole[$1, $2] = $5
+  else if (part[1] == "renew") renewed[part[2]]
+  if (part[1] == "lag" || part[1] == "kf" || part[1] == "dec") { if (!((part[1], part[2]) in had)) { had[part[1], part[2]]; choices[part[1]] = choices[part[1]] " " part[2] } }
+  else if (part[1] != "plain" && part[1] != "renew" && !(part[2] in share)) { share[part[2]]; shares[++n_shares] = part[2] }
+  if (part[1] != "plain") budget[$1, $2, part[2]] = $4
 }
-function ratio(key, a, b, of,   i, sum, k) {  # geometric mean over the seeds that have both
-  for (i = 1; i <= s; ++i) {
-    if (!((key, seed[i], a) in of) || !((key, seed[i], b) in of)) continue
-    sum += log(of[key, seed[i], a] / of[key, seed[i], b]); ++k
+# The cell of a fixed way with hindsight; "" where none keeps the budget.
+function best(w, s, way, x,   k, i, c, key, found, limit) {
+  limit = x * whole[w, s]
+  for (i = split(choices[way], c, " "); i > 0; --i) {
+    key = w SUBSEP s SUBSEP way "@" c[i]
+    if (!(key in most) || most[key] + 0 > limit) continue
+    if (found == "" || (way == "lag" ? c[i] + 0 > longest : final[key] + 0 < final[found] + 0)) { found = key; longest = c[i] + 0 }
   }
-  return k ? exp(sum / k) : 0
+  return found
 }
-function least(key, a, list, of,   i, k, part, best, r) {  # ratio of a to the best of the list, by seed
-  for (i = 1; i <= s; ++i) {
-    best = 0
-    for (k = split(list, part, " "); k > 0; --k)
-      if ((key, seed[i], part[k]) in of && (!best || of[key, seed[i], part[k]] < best)) best = of[key, seed[i], part[k]]
-    if (!best || !((key, seed[i], a) in of)) continue
-    r += log(of[key, seed[i], a] / best); ++kk[key, a]
-  }
-  return kk[key, a] ? exp(r / kk[key, a]) : 0
-}
-function cell(x) { return x ? sprintf("%.3g", x) : "-" }
-END {
-  print "# A budget of elimination complexity\n\nBudgets are shares of the largest `ec_bt` of plain iSAM2. lag, kf and dec: the best with hindsight that never breaks"
-  print "the budget.\n\n## Where we lose\n"
-  for (i = 1; i <= n; ++i) {
-    split(keys[i], part, FS); name = part[1] " at " part[2]
-    for (k = 1; k <= 2; ++k) {
-      if (violations[keys[i], way[k]]) { print "- " name ": `" way[k] "` breaks the budget at " violations[keys[i], way[k]] " steps in all."; ++losses }
-      if (failed[keys[i], way[k]]) { print "- " name ": `" way[k] "` ends early for " failed[keys[i], way[k]] " seeds."; ++losses }
+function cell_of(w, s, way, x) { return way == "lag" || way == "kf" || way == "dec" ? best(w, s, way, x) : (w SUBSEP s SUBSEP way "@" x) }
+# Geometric mean over the seeds of a way's `of` by the best of others (a list).
+function ratio(w, x, way, others, of,   list, s, i, j, o, k, key, other, least, sum, n) {
+  for (i = split(seeds[w], list, " "); i > 0; --i) {
+    s = list[i]; key = cell_of(w, s, way, x)
+    if (!(key in of) || of[key] + 0 <= 0) continue
+    least = 0
+    for (j = split(others, o, " "); j > 0; --j) {
+      other = cell_of(w, s, o[j], x)
+      if (other != "" && other in of && (!least || of[other] + 0 < least)) least = of[other] + 0
     }
-    r = ratio(keys[i], "window", "lag", of_online); if (r > 1) { printf "- %s: the online error of `window` is %.2f times that of the best lag.\n", name, r; ++losses }
-    delete kk; r = least(keys[i], "measurements", "lag kf dec", of_final)
-    if (r > 1 / 1.5) { printf "- %s: the final error of `measurements` is %.2f times the best of lag, kf and dec.\n", name, r; ++losses }
-    if (r) { all += log(r); ++cases }
-    delete kk; r = least(keys[i], "window", "lag kf dec", of_final); if (r) { all_window += log(r); ++window_cases }
-    r = ratio(keys[i], "window", "lag", of_online); if (r) { all_lag += log(r); ++lag_cases }
+    if (!least) continue
+    sum += log(of[key] / least); ++n
+  }
+  return n ? exp(sum / n) : 0
+}
+function mean(w, x, way, of,   list, i, key, sum, n) {
+  for (i = split(seeds[w], list, " "); i > 0; --i) { key = way == "plain" ? w SUBSEP list[i] SUBSEP "plain" : cell_of(w, list[i], way, x); if (key != "" && key in of) { sum += of[key]; ++n } }
+  return n ? sprintf("%.3g", sum / n) : "-"
+}
+function largest(w, x, way, of,   list, i, key, top) {
+  for (i = split(seeds[w], list, " "); i > 0; --i) { key = cell_of(w, list[i], way, x); if (key in of && of[key] / budget[w, list[i], x] > top) top = of[key] / budget[w, list[i], x] }
+  return top ? sprintf("%.2g", top) : "-"
+}
+function total(w, x, way, of,   list, i, key, sum) {
+  for (i = split(seeds[w], list, " "); i > 0; --i) { key = cell_of(w, list[i], way, x); if (key in of) sum += of[key] }
+  return sum + 0
+}
+function lose(text) { print "- " text; ++losses }
+function told(of, text,   i, j, line, k) {
+  print "\n## " text "\n\n| world | budget | plain | window | measurements | keyframes | mixed | lag | kf | dec |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
+  for (i = 1; i <= worlds; ++i) for (j = 1; j <= n_shares; ++j) {
+    line = "| " world[i] " | " shares[j] " | " mean(world[i], shares[j], "plain", of) " |"
+    for (k = 1; k <= spends; ++k) line = line " " mean(world[i], shares[j], spend[k], of) " |"
+    for (k = 1; k <= 3; ++k) line = line " " mean(world[i], shares[j], fixed[k], of) " |"
+    print line
+  }
+}
+END {
+  for (i = 2; i <= n_shares; ++i) for (j = i; j > 1 && shares[j] + 0 < shares[j - 1] + 0; --j) { t = shares[j]; shares[j] = shares[j - 1]; shares[j - 1] = t }
+  print "# A budget of elimination complexity\n\nBudgets are shares of the largest `ec_bt` of plain iSAM2 on the same graph. lag, kf and dec are chosen with hindsight among"
+  print "those that never break the budget: the longest lag, the rate that ends at the least error; their errors are over the poses that"
+  print "they keep. Online is the mean error of the newest pose at its step, final the ATE of all poses at the end. Worlds, seeds:"
+  for (i = 1; i <= worlds; ++i) print "- " world[i] ":" seeds[world[i]]
+  print "\n## Where we lose\n"
+  for (i = 1; i <= worlds; ++i) for (j = 1; j <= n_shares; ++j) {
+    name = world[i] " at " shares[j]
+    for (k = 1; k <= spends; ++k) {
+      if (b = total(world[i], shares[j], spend[k], broken)) lose(name ": `" spend[k] "` breaks the budget at " b " steps in all.")
+      if (failed[world[i], spend[k] "@" shares[j]]) lose(name ": `" spend[k] "` gives nothing for " failed[world[i], spend[k] "@" shares[j]] " seeds.")
+    }
+    if ((r = ratio(world[i], shares[j], "window", "lag", online)) > 1.005) lose(sprintf("%s: the online error of `window` is %.2f times that of the best lag.", name, r))
+    if ((r = ratio(world[i], shares[j], "mixed", "lag kf dec", final)) > 1 / 1.5) lose(sprintf("%s: the final error of `mixed` is %.2f times the best of lag, kf and dec.", name, r))
+    if ((r = ratio(world[i], shares[j], "mixed", "window", final)) > 1.05) lose(sprintf("%s: the final error of `mixed` is %.2f times that of `window`.", name, r))
   }
   if (!losses) print "Nowhere here."
-  printf "\n## In the geometric mean\n\n- online error of `window`, to the best fixed lag: %.2f\n- final error of `window`, to the best of lag, kf and dec: %.2f\n", exp(all_lag / lag_cases), exp(all_window / window_cases)
-  printf "- final error of `measurements`, to the best of lag, kf and dec: %.2f\n", exp(all / cases)
-  split("online final", table, " ")
-  for (t = 1; t <= 2; ++t) {
-    print "\n## " (t == 1 ? "Online error" : "Final error") ", metres\n\n| world | budget | plain | window | measurements | lag | kf | dec |\n|---|---:|---:|---:|---:|---:|---:|---:|"
-    for (i = 1; i <= n; ++i) {
-      split(keys[i], part, FS)
-      line = sprintf("| %s | %s | %s |", part[1], part[2], cell((t == 1 ? plain[part[1]] : plain_final[part[1]]) / seeds[part[1]]))
-      for (k = 1; k <= ways; ++k) {
-        c = count[keys[i], way[k]]
-        line = line " " (c ? cell((t == 1 ? online[keys[i], way[k]] : final[keys[i], way[k]]) / c) : "-") " |"
+  print "\n## In the geometric mean, over worlds, budgets and seeds\n\n| | online, to the best lag | final, to the best of lag, kf, dec |\n|---|---:|---:|"
+  for (k = 1; k <= spends; ++k) {
+    a = b = na = nb = 0
+    for (i = 1; i <= worlds; ++i) for (j = 1; j <= n_shares; ++j) {
+      if (r = ratio(world[i], shares[j], spend[k], "lag", online)) { a += log(r); ++na }
+      if (r = ratio(world[i], shares[j], spend[k], "lag kf dec", final)) { b += log(r); ++nb }
+    }
+    if (na) printf "| %s | %.2f | %.2f |\n", spend[k], exp(a / na), nb ? exp(b / nb) : 0
+  }
+  told(online, "Online error, metres")
+  told(final, "Final error, metres")
+  told(p95, "p95 of a step, seconds of processor time")
+  told(p99, "p99 of a step, seconds of processor time")
+  print "\n## Largest ec_step, as a multiple of the budget\n\n| world | budget | window | measurements | keyframes | mixed |\n|---|---:|---:|---:|---:|---:|"
+  for (i = 1; i <= worlds; ++i) for (j = 1; j <= n_shares; ++j) {
+    line = "| " world[i] " | " shares[j] " |"
+    for (k = 1; k <= spends; ++k) line = line " " largest(world[i], shares[j], spend[k], step) " |"
+    print line
+  }
+  for (x in renewed) {
+    print "\n## Ordering anew where ec_bt is " x " times that, to plain iSAM2\n\n| world | largest ec_bt | seconds |\n|---|---:|---:|"
+    for (i = 1; i <= worlds; ++i) {
+      n = split(seeds[world[i]], list, " "); a = b = m = 0
+      for (j = 1; j <= n; ++j) {
+        key = world[i] SUBSEP list[j] SUBSEP "renew@" x; plain = world[i] SUBSEP list[j] SUBSEP "plain"
+        if (key in most && plain in most && seconds[plain] > 0) { a += log(most[key] / most[plain]); b += log(seconds[key] / seconds[plain]); ++m }
       }
-      print line
+      if (m) printf "| %s | %.2f | %.2f |\n", world[i], exp(a / m), exp(b / m)
     }
   }
-  print "\n## Largest ec_step, as a multiple of the budget\n\n| world | budget | window | measurements |\n|---|---:|---:|---:|"
-  for (i = 1; i <= n; ++i) {
-    split(keys[i], part, FS)
-    printf "| %s | %s | %s | %s |\n", part[1], part[2], cell(steps[keys[i], "window"]), cell(steps[keys[i], "measurements"])
-  }
+  print "\nGTSAM's fixed-lag smoothers: not measured."
 }

@@ -17,7 +17,8 @@ Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options) {
   const Index n = pattern.variables();
   isam.tree.variable_clique.assign(n, -1);
   isam.tree.row_clique.assign(pattern.rows.size(), -1);
-  isam.rows_of = graph::columns(pattern);
+  const graph::Lists<> columns = graph::columns(pattern);
+  for (Index j = 0; j < n; ++j) isam.rows_of.emplace_back(columns[j].begin(), columns[j].end());
   isam.linearized.assign(problem.value_at.back(), 0.0);
   isam.estimate = isam.linearized;
   isam.step.assign(problem.step_at.back(), 0.0);
@@ -29,12 +30,7 @@ Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options) {
   isam.leaving.assign(n, false);
   isam.pinned.assign(n, false);
   isam.row_update.assign(pattern.rows.size(), -1);
-  isam.gram_at.assign(1, 0);
-  for (Index r = 0; r < pattern.rows.size(); ++r) {
-    const Offset width = factor::block_columns(pattern, r);
-    isam.gram_at.push_back(isam.gram_at.back() + width * width);
-  }
-  isam.grams.resize(isam.gram_at.back());
+  isam.gram_at.assign(pattern.rows.size(), -1);
   isam.work.local.assign(n, -1);
   isam.work.row_at.assign(n, -1);
   return isam;
@@ -45,6 +41,7 @@ Index begin_update(Isam2& isam, std::span<const Index> rows) {
   isam.work.marked.clear();
   const Index moved = relinearize(isam);
   for (Index r : rows) {
+    hold_row(isam, r);
     linearize_factor(isam, r);
     for (Index j : pattern_of(isam).rows[r]) mark_to_root(isam, isam.tree.variable_clique[j]);
   }
@@ -60,6 +57,30 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
   report.relinearized = begin_update(isam, rows);
   redo_and_solve(isam, variables, rows, plan_top(isam, variables, rows), report);
   return report;
+}
+
+namespace {
+
+Offset gram_size(const Isam2& isam, Index r) {
+  const Offset width = factor::block_columns(pattern_of(isam), r);
+  return width * width;
+}
+
+}  // namespace
+
+void hold_row(Isam2& isam, Index r) {
+  if (isam.gram_at[r] >= 0) return;
+  isam.gram_at[r] = isam.gram_pool.take(gram_size(isam, r));
+  if (isam.gram_pool.end() > static_cast<Offset>(isam.grams.size()))
+    isam.grams.resize(isam.gram_pool.end() + isam.gram_pool.end() / 2);
+}
+
+void let_row_go(Isam2& isam, Index r) {
+  if (isam.tree.row_clique[r] >= 0) --isam.rows;
+  isam.tree.row_clique[r] = -1;
+  if (isam.gram_at[r] < 0) return;
+  isam.gram_pool.give(isam.gram_at[r], gram_size(isam, r));
+  isam.gram_at[r] = -1;
 }
 
 double chi2(const Isam2& isam) {

@@ -61,6 +61,7 @@
 #include "lib/factor/linearize.h"
 #include "lib/order/order.h"
 #include "lib/solve/isam2_tree.h"
+#include "lib/solve/pool.h"
 
 namespace sg::solve {
 
@@ -83,24 +84,25 @@ struct Isam2 {
   Index rows = 0;       // factors that have entered, the gauge's row included
 
   // By variable; steps by scalar (Problem::step_at).
-  graph::Lists<> rows_of;         // all rows that a variable will ever have
-  factor::Values linearized;      // Theta, by vertex as all Values
-  factor::Values estimate;        // Theta (+) Delta
-  std::vector<double> step;       // Delta
-  std::vector<double> told;       // Delta as it was last passed down
-  std::vector<Index> changed;     // update that last passed it down
-  std::vector<double> floor;      // least pivot of every scalar
-  std::vector<bool> moved;        // is in `candidates`
-  std::vector<bool> unseen;       // landmark with rows left out (landmark_point.h)
-  std::vector<bool> leaving;      // with this update (isam2_leave.h)
-  std::vector<bool> pinned;       // keeps its linearization point (isam2_leave.h)
+  std::vector<std::vector<Index>> rows_of;  // all rows that a variable has, now or later
+  factor::Values linearized;                // Theta, by vertex as all Values
+  factor::Values estimate;                  // Theta (+) Delta
+  std::vector<double> step;                 // Delta
+  std::vector<double> told;                 // Delta as it was last passed down
+  std::vector<Index> changed;               // update that last passed it down
+  std::vector<double> floor;                // least pivot of every scalar
+  std::vector<bool> moved;                  // is in `candidates`
+  std::vector<bool> unseen;                 // landmark with rows left out (landmark_point.h)
+  std::vector<bool> leaving;                // with this update (isam2_leave.h)
+  std::vector<bool> pinned;                 // keeps its linearization point (isam2_leave.h)
   std::vector<Index> past;        // cliques kept of variables that have left, in that order
   std::vector<Index> candidates;  // with a step of beta or more, or unseen
 
   // By row of the problem's pattern.
   std::vector<Index> row_update;  // that last linearized it
-  std::vector<Offset> gram_at;    // m + 1
-  std::vector<double> grams;      // [A b]'[A b] of every row
+  std::vector<Offset> gram_at;    // of a row that is there, in grams; -1 of others
+  Pool gram_pool;
+  std::vector<double> grams;  // [A b]'[A b]
 
   // Scratch of an update; kept so that nothing is allocated again.
   struct Work {
@@ -135,6 +137,11 @@ struct Isam2Report {
 // Adds variables, whose `linearized` and `estimate` are set, and rows, each with one variable at
 // least and all of them there; then brings the estimate up to date. Throws check_row's Error.
 Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<const Index> rows);
+
+// Room for a row's numbers, before it enters. A row that is there leaves, and gives room to others; so does one for which
+// there was room, and which has not entered.
+void hold_row(Isam2& isam, Index r);
+void let_row_go(Isam2& isam, Index r);
 
 // chi-square of the rows that are there, at the estimate. Throws finite_edge_chi2's Error.
 double chi2(const Isam2& isam);

@@ -153,8 +153,7 @@ void give_back(Isam2& isam, Admission& admission, const Admission::Held& held) {
   for (Index e : edges_of(isam, held)) {
     ++admission.returned;
     mark_to_root(isam, isam.tree.row_clique[e]);
-    isam.tree.row_clique[e] = -1;
-    --isam.rows;
+    let_row_go(isam, e);
   }
   if (held.landmark < 0) return;
   mark_to_root(isam, isam.tree.variable_clique[held.landmark]);
@@ -186,7 +185,8 @@ void drop_homeless(const Isam2& isam, Choice& choice) {
 void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::Wide budget,
                Isam2Report& report) {
   Isam2& isam = replay.isam;
-  report.relinearized += begin_update(isam, entering(choice).rows);
+  const std::vector<Index> wanted = entering(choice).rows;
+  report.relinearized += begin_update(isam, wanted);
   for (const Admission::Held& held : choice.out) give_back(isam, admission, held);
   drop_homeless(isam, choice);
   Entering in = entering(choice);
@@ -205,6 +205,9 @@ void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::
   }
   Isam2Report own;
   redo_and_solve(isam, in.variables, in.rows, plan, own);
+  for (Index r : wanted) {
+    if (isam.tree.row_clique[r] < 0) let_row_go(isam, r);
+  }
   report.reeliminated += own.reeliminated;
   report.ec += own.ec;
   report.undetermined.insert(report.undetermined.end(), own.undetermined.begin(),

@@ -143,9 +143,8 @@ Index eliminate_leaving(Isam2& isam, const Parts& parts, bool keep, Isam2Report&
   }
   for (Index j : parts.neighbours) isam.pinned[j] = true;
   for (Index j : parts.leaving) tree.variable_clique[j] = -1;
-  for (Index r : parts.leaving_rows) tree.row_clique[r] = -1;
+  for (Index r : parts.leaving_rows) let_row_go(isam, r);
   isam.variables -= static_cast<Index>(parts.leaving.size());
-  isam.rows -= static_cast<Index>(parts.leaving_rows.size());
   return prior;
 }
 

@@ -159,7 +159,7 @@ void redo_and_solve(Isam2& isam, std::span<const Index> new_variables,
     eliminate_clique(isam, c, report.undetermined);
   }
   std::ranges::sort(report.undetermined);
-  if (report.undetermined.empty()) report.finite = solve_down(isam);
+  if (report.undetermined.empty()) report.finite = solve_down(isam) && report.finite;
 }
 
 }  // namespace sg::solve

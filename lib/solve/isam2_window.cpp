@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "lib/solve/isam2_leave.h"
+#include "lib/solve/isam2_spend.h"
+#include "lib/solve/isam2_turns.h"
 
 namespace sg::solve {
 namespace {
@@ -33,6 +35,10 @@ void measure(Isam2Window& window, Index k) {
                              std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
 }
 
+bool composes(const Isam2Window& window) {
+  return window.options.spend == Spend::keyframes || window.options.spend == Spend::mixed;
+}
+
 bool names_left(const Isam2Window& window, Index e) {
   return std::ranges::any_of(window.replay.problem->graph->edge(e),
                              [&](Index v) { return bool(window.left[v]); });
@@ -59,6 +65,30 @@ bool is_complete(const Isam2Window& window, Index v, Index k) {
   return observations(window, v, k).size() >= needed;
 }
 
+// Whether edge e names nothing that has left but poses that were composed, and has been moved to those that stand for
+// them.
+bool moves(Isam2Window& window, Index e) {
+  for (Index v : window.replay.problem->graph->edge(e)) {
+    const Index pose = window.replay.poses.index[v];
+    if (window.left[v] && (pose < 0 || !is_composed(window.keyframes, pose))) return false;
+  }
+  return move_edge(window.replay, window.keyframes, e);
+}
+
+// How old what the step's edges name is, before any is moved.
+void note_ages(Isam2Window& window, Index k) {
+  window.spending.ages.clear();
+  if (!composes(window)) return;
+  for (Index e : window.replay.edges[k]) {
+    Index oldest = k;
+    for (Index v : window.replay.problem->graph->edge(e)) {
+      const Index pose = window.replay.poses.index[v];
+      oldest = std::min(oldest, pose >= 0 ? pose : window.last_seen[v]);
+    }
+    if (oldest >= 0) window.spending.ages.emplace_back(e, k - oldest);
+  }
+}
+
 struct Step {
   std::vector<Index> vertices, edges;
 };
@@ -66,11 +96,12 @@ struct Step {
 // What enters at step k. Without a vertex that has left it is the replay's.
 Step entering_at(Isam2Window& window, Index k) {
   const Isam2Replay& replay = window.replay;
+  const bool nothing_has_left = window.first == 0 && window.keyframes.composed == 0;
   Step step;
   std::vector<Index> late;  // that have waited until now
   for (Index v : replay.vertices[k]) {
     const bool pose = replay.poses.index[v] >= 0;
-    if (pose || window.first == 0 || is_complete(window, v, k)) {
+    if (pose || nothing_has_left || is_complete(window, v, k)) {
       step.vertices.push_back(v);
     } else {
       window.incomplete.insert(std::ranges::upper_bound(window.incomplete, v), v);
@@ -88,8 +119,9 @@ Step entering_at(Isam2Window& window, Index k) {
     return std::ranges::none_of(replay.problem->graph->edge(e),
                                 [&](Index v) { return is_waiting(window, v); });
   };
+  note_ages(window, k);
   for (Index e : replay.edges[k]) {
-    if (names_left(window, e)) {
+    if (names_left(window, e) && !moves(window, e)) {
       ++window.dropped;
     } else if (enters(e)) {
       step.edges.push_back(e);
@@ -111,115 +143,31 @@ void note(Isam2Window& window, std::span<const Index> edges, Index k) {
     window.constant += pattern_of(window.replay.isam).rows[e].empty() ? 1 : 0;
     Index last = -1;
     for (Index v : window.replay.problem->graph->edge(e)) last = std::max(last, poses.index[v]);
-    for (Index v : window.replay.problem->graph->edge(e))
-      window.last_seen[v] = std::max(window.last_seen[v], last < 0 ? k : last);
-  }
-}
-
-// What leaves with this step, as far as it is decided: turn by turn the oldest pose with what no later one has seen, and
-// where the newest alone is left, its landmarks.
-struct Leaving {
-  std::vector<Index> variables;
-  std::vector<std::size_t> end{0};  // of every number of turns, in `variables`
-  Index poses = 0;                  // of these turns
-
-  Index turns() const { return static_cast<Index>(end.size()) - 1; }
-};
-
-bool is_present(const Isam2Window& window, Index v) {
-  return window.replay.poses.index[v] < 0 && window.last_seen[v] >= 0 && !window.left[v];
-}
-
-void leave(Isam2Window& window, Index v, Leaving& leaving) {
-  const Index j = window.replay.problem->variables.vertex_variable[v];
-  if (j < 0 || window.left[v]) return;
-  window.left[v] = true;
-  window.replay.isam.leaving[j] = true;
-  leaving.variables.push_back(j);
-}
-
-void next_leaves(Isam2Window& window, Index k, Leaving& leaving) {
-  const Index pose = window.replay.poses.pose[window.first];
-  const bool newest = window.first == k;
-  for (Index e : window.edges_of[pose]) {
     for (Index v : window.replay.problem->graph->edge(e)) {
-      if (!is_present(window, v) || window.last_seen[v] > window.first) continue;
-      if (newest && leaving.variables.size() > leaving.end.back()) continue;  // one of them
-      leave(window, v, leaving);
+      window.last_seen[v] = std::max(window.last_seen[v], last < 0 ? k : last);
+      const Index j = window.replay.problem->variables.vertex_variable[v];
+      if (j >= 0 && window.admission.place[j] < 0) window.admission.place[j] = last < 0 ? k : last;
     }
   }
-  if (!newest) {
-    leave(window, pose, leaving);
-    ++leaving.poses;
-    ++window.first;
-  }
-  leaving.end.push_back(leaving.variables.size());
 }
 
-void last_stays(Isam2Window& window, Leaving& leaving) {
-  leaving.end.pop_back();
-  for (std::size_t i = leaving.end.back(); i < leaving.variables.size(); ++i) {
-    const Index j = leaving.variables[i];
-    window.left[window.replay.problem->variables.variable_vertex[j]] = false;
-    window.replay.isam.leaving[j] = false;
-  }
-  leaving.variables.resize(leaving.end.back());
-  if (leaving.turns() < leaving.poses) {
-    --leaving.poses;
-    --window.first;
-  }
+// Whether no closure nor observation could be given back.
+bool nothing_is_held(const Isam2Window& window) {
+  const Isam2& isam = window.replay.isam;
+  return std::ranges::none_of(window.admission.held, [&](const Admission::Held& held) {
+    return held.edge >= 0
+               ? isam.tree.row_clique[held.edge] >= 0
+               : isam.tree.variable_clique[held.landmark] >= 0 && !isam.pinned[held.landmark];
+  });
 }
 
-// How many turns there are at most.
-Index most_turns(const Isam2Window& window, Index k) {
-  Index turns = k - window.first;
-  for (Index e : window.edges_of[window.replay.poses.pose[k]]) {
-    for (Index v : window.replay.problem->graph->edge(e)) turns += is_present(window, v) ? 1 : 0;
-  }
-  return turns;
-}
-
-bool is_too_old(const Isam2Window& window, Index pose, Index k) {
-  const WindowOptions& options = window.options;
-  return (options.lag > 0 && pose <= k - options.lag) ||
-         window.travelled[k] - window.travelled[pose] > options.distance;
-}
-
-// The plan of step k after so many turns.
-CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Index turns,
-                     Leaving& leaving) {
-  while (leaving.turns() < turns) next_leaves(window, k, leaving);
-  while (leaving.turns() > turns) last_stays(window, leaving);
-  mark_leaving(window.replay.isam, leaving.variables);
-  return plan_top(window.replay.isam, entering.variables, entering.rows);
-}
-
-// As few turns as bring the plan below the budget, `least` at least.
-CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, Index least,
-                       Leaving& leaving) {
-  const Index most = most_turns(window, k);
-  CliqueTree plan = plan_with(window, entering, k, least, leaving);
-  const elim::Wide budget = window.options.budget;
-  if (budget == 0 || window.options.spend != Spend::window) return plan;
-  const auto fits = [&](Index turns) {
-    if (turns != leaving.turns()) plan = plan_with(window, entering, k, turns, leaving);
-    return ec_after(window.replay.isam, plan, leaving.variables) <= budget;
-  };
-  if (fits(least)) return plan;
-  Index too_few = least, enough = most;
-  for (Index more = 1; least + more < most; more *= 2) {
-    if (fits(least + more)) {
-      enough = least + more;
-      break;
-    }
-    too_few = least + more;
-  }
-  while (enough - too_few > 1 + (enough - least) / 8) {
-    const Index between = too_few + (enough - too_few) / 2;
-    (fits(between) ? enough : too_few) = between;
-  }
-  fits(enough);
-  return plan;
+CliqueTree plan(Isam2Window& window, const Entering& entering, Index k, Leaving& leaving) {
+  const Index least = turns_by_age(window, k);
+  if (window.options.budget == 0 ||
+      (window.options.spend == Spend::measurements && !nothing_is_held(window)))
+    return plan_with(window, entering, k, least, leaving);
+  if (composes(window)) return plan_spending(window, entering, k, least, leaving);
+  return plan_within(window, entering, k, least, leaving);
 }
 
 }  // namespace
@@ -227,8 +175,10 @@ CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, I
 Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options& isam, int min_obs,
                               bool start_from_file, const WindowOptions& options) {
   Isam2Window window;
-  window.replay = make_isam2_replay(problem, isam, min_obs, start_from_file);
   window.options = options;
+  if (composes(window)) window.keyframes.own = rewritable(problem);
+  window.replay = make_isam2_replay(window.keyframes.own ? window.keyframes.own->problem : problem,
+                                    isam, min_obs, start_from_file);
   window.renewal = {.factor = options.renew, .budget = options.budget};
   window.min_obs = min_obs;
   const Graph& graph = *problem.graph;
@@ -236,15 +186,32 @@ Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options
   window.last_seen.assign(graph.vertices(), -1);
   window.edges_of = graph::transpose(graph.edge_vertices, graph.vertices());
   window.admission = make_admission(window.replay);
+  const std::size_t poses = window.replay.poses.pose.size();
+  window.keyframes.stands_for.assign(poses, 1);
+  window.keyframes.spread.assign(poses, 0);
+  window.spending.worth.assign(poses, 0);
+  window.spending.looked.assign(poses, -1);
+  window.spending.rates.assign(poses, std::numeric_limits<double>::infinity());
   return window;
 }
 
 namespace {
 
+// What the plan says is done, and what leaves does so.
+void carry_out(Isam2Window& window, const Entering& entering, const CliqueTree& plan,
+               const Leaving& leaving, Isam2Report& report) {
+  Isam2& isam = window.replay.isam;
+  redo_and_solve(isam, entering.variables, entering.rows, plan, report);
+  if (report.undetermined.empty() && report.finite)
+    take_leave(isam, leaving.variables, window.options.smooth, report);
+}
+
 Isam2Report update(Isam2Window& window, const Step& step, Index k) {
   Isam2& isam = window.replay.isam;
-  const Entering entering = enter(window.replay, step.vertices, step.edges);
+  Entering entering = enter(window.replay, step.vertices, step.edges);
+  ++window.there;
   measure(window, k);
+  if (window.options.spend == Spend::mixed) refuse_closures(window, entering, k);
   note(window, step.edges, k);
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
@@ -252,22 +219,28 @@ Isam2Report update(Isam2Window& window, const Step& step, Index k) {
     mark_all(isam);
     ++window.renewed;
   }
-  Index least = 0;
-  while (window.first + least < k && is_too_old(window, window.first + least, k)) ++least;
   Leaving leaving;
-  const CliqueTree plan = plan_within(window, entering, k, least, leaving);
-  redo_and_solve(isam, entering.variables, entering.rows, plan, report);
-  if (report.undetermined.empty() && report.finite)
-    take_leave(isam, leaving.variables, window.options.smooth, report);
+  const CliqueTree made = plan(window, entering, k, leaving);
+  carry_out(window, entering, made, leaving, report);
   check_solved(window.replay, k, report);
+  if (composes(window)) learn(window);
   return report;
+}
+
+// All measurements that could be refused or given back have been, and the poses alone are above the budget: the oldest
+// leave.
+void let_poses_go(Isam2Window& window, Index k, Isam2Report& report) {
+  Leaving leaving;
+  report.relinearized += begin_update(window.replay.isam, {});
+  const CliqueTree made = plan_within(window, {}, k, 0, leaving);
+  carry_out(window, {}, made, leaving, report);
 }
 
 }  // namespace
 
 Isam2Report window_step(Isam2Window& window, Index k) {
   Step step = entering_at(window, k);
-  if (window.options.spend == Spend::window) return update(window, step, k);
+  if (window.options.spend != Spend::measurements) return update(window, step, k);
   const std::vector<Offer> offers =
       take_offers(window.replay, k, window.min_obs, step.vertices, step.edges);
   Isam2Report report = update(window, step, k);
@@ -277,6 +250,7 @@ Isam2Report window_step(Isam2Window& window, Index k) {
   for (Index v : admitted.refused_landmarks)
     window.incomplete.insert(std::ranges::upper_bound(window.incomplete, v), v);
   for (Index v : admitted.returned_landmarks) window.left[v] = true;
+  if (window.replay.isam.tree.ec_bt > window.options.budget) let_poses_go(window, k, report);
   check_solved(window.replay, k, report);
   return report;
 }

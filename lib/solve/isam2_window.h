@@ -20,15 +20,19 @@
 #include <limits>
 
 #include "lib/solve/isam2_admission.h"
+#include "lib/solve/isam2_keyframes.h"
 #include "lib/solve/isam2_renew.h"
 #include "lib/solve/isam2_replay.h"
+#include "lib/solve/isam2_returns.h"
 
 namespace sg::solve {
 
 // What gives where a budget leaves no room.
 enum class Spend : std::uint8_t {
   window,        // the oldest poses leave
-  measurements,  // closures and observations are refused or given back (isam2_admission.h)
+  measurements,  // closures and observations are refused or given back (isam2_admission.h); then the oldest poses leave
+  keyframes,  // poses are composed (isam2_keyframes.h) that pay least; where none can be, the oldest leave
+  mixed,  // whatever of these costs least (isam2_spend.h)
 };
 
 struct WindowOptions {
@@ -40,12 +44,27 @@ struct WindowOptions {
   double renew = 0;     // order the whole anew beyond this factor (isam2_renew.h); 0: never
 };
 
+// What is known of what a budget is best spent on (isam2_spend.h).
+struct Spending {
+  Returns returns;
+  double rate = 0;     // at which room was last made: loss per EC
+  double closure = 0;  // mean variance of closures, faded
+  std::vector<double>
+      worth;  // by pose index: what giving its observations back would lose, when last looked at
+  std::vector<Index> looked;                  // by pose index: in which step, -1: never
+  std::vector<double> rates;                  // by pose index: of composing it, when last looked at
+  Index next_look = 0;                        // pose index
+  Index refused = 0;                          // edges
+  std::vector<std::pair<Index, Index>> ages;  // of this step's edges, what they name: edge and age
+};
+
 struct Isam2Window {
   Isam2Replay replay;
   WindowOptions options;
   int min_obs = 1;
 
   Index first = 0;     // pose index of the oldest that is there
+  Index there = 0;     // poses
   Index constant = 0;  // edges that have entered and hold no variable
   Index dropped = 0;   // edges that named what had left
   std::vector<double>
@@ -54,6 +73,10 @@ struct Isam2Window {
   std::vector<Index> last_seen;  // by vertex, no pose: pose index, -1 before it enters
   graph::Lists<> edges_of;       // by vertex
   Admission admission;
+  Keyframes keyframes;
+  Spending spending;
+  Index usual_turns = 0;  // beyond what is too old, of the last step
+  Index plans = 0;        // made so far
   Renewal renewal;
   Index renewed = 0;              // steps that ordered the whole anew
   std::vector<Index> incomplete;  // vertices that wait for observations, ascending

@@ -94,6 +94,40 @@ corridor() {
   [ "$violations" = 0 ]
 }
 
+@test "--spend measurements: where odometry alone is above the budget, the oldest leave" {
+  sg-gen manhattan -n 400 -o world.g2o
+  sg-isam2 -q --budget 10000 --spend measurements -f ec_bt,window,violations --no-header world.g2o > rows.tsv
+  [ "$(cut -f 1 rows.tsv | sort -n | tail -n 1)" -le 10000 ]
+  [ "$(tail -n 1 rows.tsv | cut -f 2)" -lt 400 ]
+  [ "$(tail -n 1 rows.tsv | cut -f 3)" = 0 ]
+}
+
+@test "--spend keyframes: poses are composed, closures to them move, and the budget is kept" {
+  sg-gen manhattan -n 400 --truth truth.g2o -o world.g2o
+  sg-isam2 -q --budget 40000 --spend keyframes -f ec_bt,window,composed,moved,dropped,violations --no-header -o end.g2o world.g2o > rows.tsv
+  [ "$(cut -f 1 rows.tsv | sort -n | tail -n 1)" -le 40000 ]
+  read -r _ window composed moved dropped violations < <(tail -n 1 rows.tsv)
+  [ "$((window + composed))" = 400 ]
+  [ "$composed" -gt 100 ]
+  [ "$moved" -gt "$composed" ]
+  [ "$violations" = 0 ]
+  # Every pose is written, where its keyframe says.
+  sg-isam2 -q --budget 40000 -o window.g2o world.g2o > window.tsv
+  [ "$(sg-score -q --reference truth.g2o -f matched --no-header end.g2o)" = "$(sg-score -q --reference truth.g2o -f matched --no-header window.g2o)" ]
+}
+
+@test "--spend mixed: where no way leads back it is a window; where one does, poses are composed" {
+  corridor 200 > corridor.g2o
+  sg-isam2 -q --budget 3000 -f ec_bt,window --no-header corridor.g2o > window.tsv
+  sg-isam2 -q --budget 3000 --spend mixed -f ec_bt,window --no-header corridor.g2o > mixed.tsv
+  cmp window.tsv mixed.tsv
+  sg-gen manhattan -n 400 -o world.g2o
+  sg-isam2 -q --budget 40000 --spend mixed -f ec_bt,composed,violations --no-header world.g2o > rows.tsv
+  [ "$(cut -f 1 rows.tsv | sort -n | tail -n 1)" -le 40000 ]
+  [ "$(tail -n 1 rows.tsv | cut -f 2)" -gt 50 ]
+  [ "$(tail -n 1 rows.tsv | cut -f 3)" = 0 ]
+}
+
 @test "a budget without end admits every measurement, and ends where plain iSAM2 does" {
   sg-gen manhattan -n 150 -o world.g2o
   sg-isam2 -q --budget 1e15 --spend measurements --chi2 -f chi2,offered,admitted,returned --no-header world.g2o | tail -n 1 > all.tsv

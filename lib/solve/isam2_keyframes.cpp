@@ -1,0 +1,215 @@
+#include "lib/solve/isam2_keyframes.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "lib/solve/isam2_steps.h"
+
+namespace sg::solve {
+namespace {
+
+Index variable_of(const Isam2Replay& replay, Index v) {
+  return replay.problem->variables.vertex_variable[v];
+}
+
+// And stays.
+bool is_there(const Isam2Replay& replay, Index v) {
+  const Index j = variable_of(replay, v);
+  return j >= 0 && replay.isam.tree.variable_clique[j] >= 0 && !replay.isam.leaving[j];
+}
+
+// Whether edge e measures one variable pose from another.
+bool is_link(const Isam2Replay& replay, Index e) {
+  const factor::Problem& problem = *replay.problem;
+  return e < problem.graph->edges() && is_relative_pose(*problem.graph, e) &&
+         problem.variables.pattern.rows[e].size() == 2;
+}
+
+Index other_end(std::span<const Index> ends, Index v) {
+  return ends[0] == v ? ends[1] : ends[0];
+}
+
+// What edge e measures from vertex v on.
+RelativePose measured_from(const Isam2Replay& replay, Index e, Index v) {
+  const RelativePose z = relative_pose(*replay.problem, e);
+  return replay.problem->graph->edge(e)[0] == v ? z : inverse(z);
+}
+
+Index landmark_of(const Isam2Replay& replay, Index e) {
+  if (e >= replay.problem->graph->edges()) return -1;
+  for (Index v : replay.problem->graph->edge(e)) {
+    if (replay.problem->graph->role(v) == graph::Role::landmark) return v;
+  }
+  return -1;
+}
+
+// The edge that ties pose v best to another; -1 where none does.
+Index best_link(const Isam2Replay& replay, Index v, std::span<const Index> rows) {
+  Index best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index r : rows) {
+    if (!is_link(replay, r) || !is_there(replay, other_end(replay.problem->graph->edge(r), v)))
+      continue;
+    const double variance = solve::variance(relative_pose(*replay.problem, r));
+    if (variance < least) {
+      least = variance;
+      best = r;
+    }
+  }
+  return best;
+}
+
+// Row r is one of pose `to` from now on, and none of pose `from`.
+void change_row(Isam2Replay& replay, Index r, Index from, Index to) {
+  std::erase(replay.isam.rows_of[variable_of(replay, from)], r);
+  replay.isam.rows_of[variable_of(replay, to)].push_back(r);
+}
+
+double freed_at(const Isam2& isam, Index c, Index j, bool frontal) {
+  const Isam2Clique& clique = isam.tree.cliques[c];
+  const double d = pattern_of(isam).dim[j], f = clique.f, n = clique.f + clique.s;
+  double sum = f * n * n - (frontal ? f - d : f) * (n - d) * (n - d);
+  for (Index child = clique.first_child; child >= 0; child = isam.tree.cliques[child].next) {
+    const Isam2Clique& below = isam.tree.cliques[child];
+    if (!is_prior(below) && std::ranges::count(separators_of(isam.tree, below), j) > 0)
+      sum += freed_at(isam, child, j, false);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Keyframes::Way way_to(Keyframes& keyframes, Index k) {
+  Keyframes::Way& way = keyframes.ways.at(k);
+  if (is_composed(keyframes, way.host)) {
+    const Keyframes::Way above = way_to(keyframes, way.host);
+    way = {above.host, compose(above.from_host, way.from_host)};
+  }
+  return way;
+}
+
+bool move_edge(Isam2Replay& replay, Keyframes& keyframes, Index e) {
+  if (!is_link(replay, e)) return false;
+  const auto ends = replay.problem->graph->edge(e);
+  std::array<Index, 2> to{ends[0], ends[1]};
+  RelativePose z = relative_pose(*replay.problem, e);
+  for (int i = 0; i < 2; ++i) {
+    const Index k = replay.poses.index[to[i]];
+    if (!is_composed(keyframes, k)) continue;
+    const Keyframes::Way way = way_to(keyframes, k);
+    to[i] = replay.poses.pose[way.host];
+    if (!is_there(replay, to[i])) return false;
+    z = i == 0 ? compose(way.from_host, z) : compose(z, inverse(way.from_host));
+  }
+  if (to[0] == to[1]) return false;
+  for (int i = 0; i < 2; ++i) {
+    if (to[i] != ends[i]) change_row(replay, e, ends[i], to[i]);
+  }
+  rewrite(*keyframes.own, e, to[0], to[1], z);
+  ++keyframes.moved;
+  return true;
+}
+
+std::vector<Index> rows_in(const Isam2& isam, Index j) {
+  std::vector<Index> rows;
+  std::ranges::copy_if(isam.rows_of[j], std::back_inserter(rows),
+                       [&](Index r) { return isam.tree.row_clique[r] >= 0; });
+  return rows;
+}
+
+bool can_be_composed(const Isam2Replay& replay, Index k, int min_obs) {
+  const Isam2& isam = replay.isam;
+  const Index v = replay.poses.pose[k], j = variable_of(replay, v);
+  if (j < 0 || j == replay.problem->held || isam.tree.variable_clique[j] < 0 || isam.pinned[j])
+    return false;
+  bool tied = false;
+  for (Index r : isam.rows_of[j]) {
+    if (enters(isam, r)) return false;
+    if (isam.tree.row_clique[r] < 0) continue;
+    if (is_link(replay, r)) {
+      tied = tied || is_there(replay, other_end(replay.problem->graph->edge(r), v));
+      continue;
+    }
+    const Index landmark = landmark_of(replay, r);
+    if (landmark < 0) return false;
+    const Index l = variable_of(replay, landmark);
+    if (l < 0 || !isam.pinned[l]) continue;
+    if (static_cast<int>(rows_in(isam, l).size()) <= min_obs) return false;
+  }
+  return tied;
+}
+
+double way_variance(const Isam2Replay& replay, Index k) {
+  const Index v = replay.poses.pose[k];
+  const Index link = best_link(replay, v, rows_in(replay.isam, variable_of(replay, v)));
+  return variance(relative_pose(*replay.problem, link));
+}
+
+void take_row_out(Isam2& isam, Index r) {
+  mark_to_root(isam, isam.tree.row_clique[r]);
+  let_row_go(isam, r);
+}
+
+void take_variable_out(Isam2& isam, Index j) {
+  mark_to_root(isam, isam.tree.variable_clique[j]);
+  isam.tree.variable_clique[j] = -1;
+  --isam.variables;
+}
+
+std::vector<Index> compose_away(Isam2Replay& replay, Keyframes& keyframes, Index k) {
+  Isam2& isam = replay.isam;
+  const Index v = replay.poses.pose[k], j = variable_of(replay, v);
+  const std::vector<Index> rows = rows_in(isam, j);
+  const Index link = best_link(replay, v, rows);
+  const Index host = other_end(replay.problem->graph->edge(link), v);
+  const Keyframes::Way way{replay.poses.index[host], measured_from(replay, link, host)};
+  std::vector<Index> landmarks;
+  for (Index r : rows) {
+    const auto ends = replay.problem->graph->edge(r);
+    if (!is_link(replay, r) || other_end(ends, v) == host) {
+      if (const Index landmark = landmark_of(replay, r); landmark >= 0)
+        landmarks.push_back(landmark);
+      if (r != link) ++keyframes.returned;
+      take_row_out(isam, r);
+      continue;
+    }
+    const Index to = other_end(ends, v);
+    rewrite(*keyframes.own, r, host, to, compose(way.from_host, measured_from(replay, r, v)));
+    change_row(replay, r, v, host);
+    linearize_factor(isam, r);
+    mark_to_root(isam, isam.tree.row_clique[r]);
+    for (Index end : {host, to})
+      mark_to_root(isam, isam.tree.variable_clique[variable_of(replay, end)]);
+    ++keyframes.moved;
+  }
+  take_variable_out(isam, j);
+  keyframes.stands_for[way.host] += keyframes.stands_for[k];
+  keyframes.spread[way.host] =
+      std::max(keyframes.spread[way.host], keyframes.spread[k] + variance(way.from_host));
+  keyframes.ways.emplace(k, way);
+  ++keyframes.composed;
+  std::ranges::sort(landmarks);
+  const auto doubles = std::ranges::unique(landmarks);
+  landmarks.erase(doubles.begin(), doubles.end());
+  return landmarks;
+}
+
+double freed_by(const Isam2& isam, Index j) {
+  const Index c = isam.tree.variable_clique[j];
+  return c < 0 ? 0 : freed_at(isam, c, j, true);
+}
+
+void place_composed(Isam2Replay& replay, Keyframes& keyframes) {
+  const factor::Problem& problem = *replay.problem;
+  std::vector<Index> composed;
+  for (const auto& [k, way] : keyframes.ways) composed.push_back(k);
+  for (const Index k : composed) {
+    const Keyframes::Way way = way_to(keyframes, k);
+    double* const x = replay.isam.estimate.data();
+    place(way.from_host, x + problem.value_at[replay.poses.pose[way.host]],
+          x + problem.value_at[replay.poses.pose[k]]);
+  }
+}
+
+}  // namespace sg::solve

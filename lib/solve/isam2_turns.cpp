@@ -1,0 +1,154 @@
+#include "lib/solve/isam2_turns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/solve/isam2_leave.h"
+
+namespace sg::solve {
+namespace {
+
+void last_stays(Isam2Window& window, Leaving& leaving) {
+  const Leaving::Turn turn = leaving.turn.back();
+  leaving.turn.pop_back();
+  for (std::size_t i = turn.variables; i < leaving.variables.size(); ++i) {
+    const Index j = leaving.variables[i];
+    window.left[window.replay.problem->variables.variable_vertex[j]] = false;
+    window.replay.isam.leaving[j] = false;
+  }
+  leaving.variables.resize(turn.variables);
+  window.first = turn.first;
+  while (is_composed(window.keyframes, window.first)) ++window.first;
+  window.there += turn.pose ? 1 : 0;
+}
+
+// So many of the turns as would be left if the last ones were taken back for that room.
+Index fewer_turns(const Leaving& leaving, double room) {
+  Index turns = leaving.turns();
+  while (turns > 0 && leaving.turn[turns - 1].freed <= room) room -= leaving.turn[--turns].freed;
+  return turns;
+}
+
+// How many more would free so much; at least one. Those beyond the first are taken to free as much as that.
+Index more_turns(const Isam2Window& window, Index k, const Leaving& leaving, double excess) {
+  const double next = window.first < k || leaving.turn.empty() ? freed_by_turn(window, k)
+                                                               : leaving.turn.back().freed;
+  return next > 0 ? static_cast<Index>(std::min(1e6, std::ceil(excess / next))) : 1;
+}
+
+// How many turns there are at most.
+Index most_turns(const Isam2Window& window, Index k, const Leaving& leaving) {
+  Index turns = leaving.turns() + window.there - 1;
+  for (Index e : window.edges_of[window.replay.poses.pose[k]]) {
+    for (Index v : window.replay.problem->graph->edge(e)) turns += is_present(window, v) ? 1 : 0;
+  }
+  return turns;
+}
+
+bool is_too_old(const Isam2Window& window, Index pose, Index k) {
+  const WindowOptions& options = window.options;
+  return (options.lag > 0 && pose <= k - options.lag) ||
+         window.travelled[k] - window.travelled[pose] > options.distance;
+}
+
+}  // namespace
+
+bool is_present(const Isam2Window& window, Index v) {
+  return window.replay.poses.index[v] < 0 && window.last_seen[v] >= 0 && !window.left[v];
+}
+
+std::vector<Index> next_to_leave(const Isam2Window& window, Index k) {
+  const Index pose = window.replay.poses.pose[window.first];
+  const bool newest = window.first == k;
+  std::vector<Index> variables;
+  const auto leaves = [&](Index v) {
+    const Index j = window.replay.problem->variables.vertex_variable[v];
+    if (j >= 0 && !window.left[v] && std::ranges::find(variables, j) == variables.end())
+      variables.push_back(j);
+  };
+  for (Index e : window.edges_of[pose]) {
+    for (Index v : window.replay.problem->graph->edge(e)) {
+      if (!is_present(window, v) || window.last_seen[v] > window.first) continue;
+      if (newest && !variables.empty()) continue;  // one of them
+      leaves(v);
+    }
+  }
+  if (!newest) leaves(pose);
+  return variables;
+}
+
+double freed_by_turn(const Isam2Window& window, Index k) {
+  double sum = 0;
+  for (const Index j : next_to_leave(window, k)) sum += freed_by(window.replay.isam, j);
+  return sum;
+}
+
+void add_turn(Isam2Window& window, Index k, Leaving& leaving) {
+  const bool pose = window.first < k;
+  leaving.turn.push_back({leaving.variables.size(), window.first, pose, freed_by_turn(window, k)});
+  for (const Index j : next_to_leave(window, k)) {
+    window.left[window.replay.problem->variables.variable_vertex[j]] = true;
+    window.replay.isam.leaving[j] = true;
+    leaving.variables.push_back(j);
+  }
+  if (!pose) return;
+  --window.there;
+  do {
+    ++window.first;
+  } while (is_composed(window.keyframes, window.first));
+}
+
+Index turns_by_age(const Isam2Window& window, Index k) {
+  Index turns = 0;
+  for (Index pose = window.first; pose < k && is_too_old(window, pose, k); ++pose)
+    turns += is_composed(window.keyframes, pose) ? 0 : 1;
+  return turns;
+}
+
+CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Index turns,
+                     Leaving& leaving) {
+  while (leaving.turns() < turns) add_turn(window, k, leaving);
+  while (leaving.turns() > turns) last_stays(window, leaving);
+  mark_leaving(window.replay.isam, leaving.variables);
+  ++window.plans;
+  return plan_top(window.replay.isam, entering.variables, entering.rows);
+}
+
+CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, Index least,
+                       Leaving& leaving) {
+  if (window.options.budget == 0) return plan_with(window, entering, k, least, leaving);
+  const auto budget = static_cast<double>(window.options.budget);
+  const Index most = std::max(least, most_turns(window, k, leaving));
+  Index too_few = least - 1, enough = -1, turns = std::min(least + window.usual_turns, most);
+  for (int tries = 1;; ++tries) {
+    CliqueTree plan = plan_with(window, entering, k, turns, leaving);
+    const double room =
+        budget - static_cast<double>(ec_after(window.replay.isam, plan, leaving.variables));
+    if (room >= 0) {
+      enough = turns;
+    } else {
+      too_few = turns;
+      if (enough <= turns) enough = -1;  // what has been marked since makes it cost more
+    }
+    const bool done = room >= 0 && (enough - too_few <= 1 + (enough - least) / 8 ||
+                                    fewer_turns(leaving, room) == turns);
+    if (done || (room < 0 && turns == most)) {
+      window.usual_turns = turns - least;
+      return plan;
+    }
+    // What turns are thought to free, and when that misleads, halves.
+    const bool halve = tries > 3 && enough >= 0;
+    if (halve) {
+      turns =
+          enough - too_few > 1 + (enough - least) / 8 ? too_few + (enough - too_few) / 2 : enough;
+    } else if (room >= 0) {
+      turns = std::max(too_few + 1, fewer_turns(leaving, room));
+    } else {
+      const Index more =
+          std::min(Index{1} << std::min(tries, 20), more_turns(window, k, leaving, -room));
+      turns = std::min(enough >= 0 ? enough : most, turns + more);
+    }
+  }
+}
+
+}  // namespace sg::solve

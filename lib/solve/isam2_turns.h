@@ -1,0 +1,44 @@
+// What leaves a window by age, as far as it is decided, and the plan of a step with that: turn by turn the oldest pose with
+// what no later one has seen, and where the newest alone is left, its landmarks one by one.
+#pragma once
+
+#include "lib/solve/isam2_steps.h"
+#include "lib/solve/isam2_window.h"
+
+namespace sg::solve {
+
+struct Leaving {
+  struct Turn {  // as it was before it
+    std::size_t variables;
+    Index first;
+    bool pose;     // leaves
+    double freed;  // of EC_BT, as it is thought
+  };
+  std::vector<Index> variables;
+  std::vector<Turn> turn;
+
+  Index turns() const { return static_cast<Index>(turn.size()); }
+};
+
+// Whether vertex v, which is no pose, is in the window.
+bool is_present(const Isam2Window& window, Index v);
+
+// Variables that the next turn would let go; what it would free of EC_BT, by the tree as it is.
+std::vector<Index> next_to_leave(const Isam2Window& window, Index k);
+double freed_by_turn(const Isam2Window& window, Index k);
+
+void add_turn(Isam2Window& window, Index k, Leaving& leaving);
+
+// How many turns let those go that are too old.
+Index turns_by_age(const Isam2Window& window, Index k);
+
+// The plan of step k after so many turns.
+CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Index turns,
+                     Leaving& leaving);
+
+// About as few turns as bring the plan below the budget, `least` at least. The search starts from what the step before
+// took, and goes by what turns are thought to free: most of the time one plan or two are made.
+CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, Index least,
+                       Leaving& leaving);
+
+}  // namespace sg::solve

@@ -1,0 +1,151 @@
+// What a budget is spent on: poses that are composed away, and whatever costs least, against batch elimination of the rows
+// that were kept.
+#include "lib/solve/isam2_spend.h"
+
+#include "lib/solve/isam2_leave.h"
+#include "tests/unit/walks.h"
+
+using namespace sg::test;
+
+namespace {
+
+struct Run {
+  sg::solve::Isam2Window& window;
+  std::vector<bool> marginalized = {};  // rows that left with one of their variables, by age
+  std::vector<bool> in = {};
+
+  // After a step.
+  void look() {
+    const sg::solve::Isam2& isam = window.replay.isam;
+    const auto& variables = isam.problem->variables;
+    const std::size_t rows = isam.tree.row_clique.size();
+    marginalized.resize(rows, false);
+    in.resize(rows, false);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const bool now = isam.tree.row_clique[r] >= 0;
+      // Rows that came and went in one step have been linearized in it.
+      const bool was = in[r] || isam.row_update[r] == isam.updates;
+      bool by_age = false, composed = false;
+      for (const sg::Index j : variables.pattern.rows[static_cast<sg::Index>(r)]) {
+        const sg::Index v = variables.variable_vertex[j], pose = window.replay.poses.index[v];
+        const bool is_composed = pose >= 0 && sg::solve::is_composed(window.keyframes, pose);
+        composed |= is_composed;
+        by_age |= window.left[v] && !is_composed && isam.tree.variable_clique[j] < 0;
+      }
+      if (was && !now && by_age && !composed) marginalized[r] = true;
+      in[r] = now;
+    }
+  }
+  double difference() const {
+    return sg::test::difference(window.replay.isam, false,
+                                [&](sg::Index r) { return in[r] || marginalized[r]; });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("keyframes and mixed: what is there is batch's solution of the rows that were kept",
+          "[isam2]") {
+  Random random(11);
+  sg::Index composed = 0, moved = 0, returned = 0, left = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const sg::Graph graph = graph_of(walk(random, 60, draw(random, 2, 40)));
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    const bool mixed = trial % 2 == 1;
+    const sg::solve::WindowOptions options{
+        .budget = 4000u << draw(random, 0, 3),
+        .spend = mixed ? sg::solve::Spend::mixed : sg::solve::Spend::keyframes};
+    auto window =
+        sg::solve::make_isam2_window(problem, exact(trial), 1 + trial / 2 % 2, false, options);
+    Run run{window};
+    for (sg::Index k = 0; k < window.replay.steps.steps; ++k) {
+      sg::solve::window_step(window, k);
+      run.look();
+      check_counts(window.replay.isam);
+      CHECK(window.replay.isam.tree.ec_bt <= options.budget);
+      CHECK(run.difference() < 1e-7);
+      CHECK(window.there >= 1);
+    }
+    composed += window.keyframes.composed;
+    moved += window.keyframes.moved;
+    returned += window.keyframes.returned;
+    left +=
+        static_cast<sg::Index>(std::ranges::count(window.left, true)) - window.keyframes.composed;
+  }
+  CHECK(composed > 100);
+  CHECK(moved > 100);
+  CHECK(returned > 20);
+  CHECK(left > 20);
+}
+
+TEST_CASE("poses composed along odometry are marginalized: nothing is lost of the rest",
+          "[isam2]") {
+  Random random(12);
+  for (int trial = 0; trial < 6; ++trial) {
+    std::string lines;
+    const int poses = 40;
+    const auto relate = [&](int i, int j, double noise) {
+      lines += "EDGE_SE2 " + std::to_string(i) + " " + std::to_string(j) + " " +
+               text(j - i + uniform(random, -noise, noise)) + text(uniform(random, -noise, noise)) +
+               text(uniform(random, -noise, noise)) + "100 3 0 90 5 400\n";
+    };
+    for (int k = 1; k < poses; ++k) relate(k - 1, k, 0.1);
+    relate(0, poses - 1, 0.01);
+    const sg::Graph graph = graph_of(lines);
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    auto options = exact(0);
+    options.relinearize_skip = 0;
+    auto window = sg::solve::make_isam2_window(
+        problem, options, 1, false, {.budget = 3000, .spend = sg::solve::Spend::keyframes});
+    for (sg::Index k = 0; k < poses; ++k) sg::solve::window_step(window, k);
+    CHECK(window.keyframes.composed > 20);
+    // All rows as they were given, linearized where the poses started: there odometry has no error.
+    auto plain = sg::solve::make_isam2_replay(problem, options, 1, false);
+    for (sg::Index k = 0; k < poses; ++k) sg::solve::replay_step(plain, k);
+    double most = 0;
+    for (sg::Index j = 0; j < poses; ++j) {
+      if (window.replay.isam.tree.variable_clique[j] < 0) continue;
+      for (sg::Index i = problem.step_at[j]; i < problem.step_at[j + 1]; ++i)
+        most = std::max(most, std::abs(window.replay.isam.step[i] - plain.isam.step[i]));
+    }
+    CHECK(most < 1e-9);
+    sg::solve::place_composed(window.replay, window.keyframes);
+    CHECK(window.replay.isam.estimate != plain.isam.estimate);  // to first order, and by one host
+  }
+}
+
+TEST_CASE("a budget without end composes nothing", "[isam2]") {
+  Random random(13);
+  for (const auto spend : {sg::solve::Spend::keyframes, sg::solve::Spend::mixed}) {
+    const sg::Graph graph = graph_of(walk(random, 40, 30));
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    auto window = sg::solve::make_isam2_window(problem, exact(0), 1, false,
+                                               {.budget = 1u << 30, .spend = spend});
+    auto plain = sg::solve::make_isam2_replay(problem, exact(0), 1, false);
+    for (sg::Index k = 0; k < plain.steps.steps; ++k) {
+      sg::solve::replay_step(plain, k);
+      sg::solve::window_step(window, k);
+    }
+    CHECK(window.keyframes.composed == 0);
+    CHECK(plain.isam.estimate == window.replay.isam.estimate);
+  }
+}
+
+TEST_CASE("what edges tell of an age is expected of it", "[isam2]") {
+  sg::solve::Returns returns;
+  CHECK(sg::solve::expected_gain(returns, 5) == 0);
+  for (int k = 0; k < 3000; ++k) {
+    sg::solve::next_step(returns);
+    sg::solve::note_return(returns, 64, 2.0);
+    sg::solve::note_return(returns, 64, {});
+  }
+  // Two a step, of two each; older than that, none.
+  CHECK(sg::solve::expected_gain(returns, 30) == Approx(4).epsilon(1e-3));
+  CHECK(sg::solve::expected_gain(returns, 2000) == 0);
+  // What was never looked at is taken to grow with age.
+  for (int k = 0; k < 3000; ++k) {
+    sg::solve::next_step(returns);
+    sg::solve::note_return(returns, 256, {});
+  }
+  CHECK(sg::solve::expected_gain(returns, 200) > 4);
+}
