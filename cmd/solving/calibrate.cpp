@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
-#include <limits>
 
 #include "cmd/common/processor.h"
 #include "cmd/common/stage.h"
@@ -24,7 +23,7 @@ namespace {
 
 constexpr double most_ec = 5e9;        // of an elimination that is timed
 constexpr double seconds_each = 0.03;  // that one is timed for
-constexpr int runs_each = 3;           // at least
+constexpr std::size_t runs_each = 3;   // at least
 
 template <class World>
 Graph graph_of(const World& world) {
@@ -59,6 +58,7 @@ std::vector<std::function<Graph()>> worlds() {
   return all;
 }
 
+<<<<<<< HEAD:cmd/solving/calibrate.cpp
 // The least of several, which is what it takes when nothing else goes on.
 double time_of(solve::Elimination& elimination, const factor::LinearSystem& system) {
   double least = std::numeric_limits<double>::infinity(), sum = 0;
@@ -68,8 +68,19 @@ double time_of(solve::Elimination& elimination, const factor::LinearSystem& syst
     const double seconds = cmd::processor_seconds() - begin;
     least = std::min(least, seconds);
     sum += seconds;
+=======
+// The median of several, as --time has it.
+double time_of(Elimination& elimination, const factor::LinearSystem& system) {
+  std::vector<double> times;
+  for (double sum = 0; times.size() < runs_each || sum < seconds_each; sum += times.back()) {
+    const double begin = cmd::processor_seconds();
+    eliminate(elimination, system);
+    times.push_back(cmd::processor_seconds() - begin);
+>>>>>>> predict:cmd/solve/calibrate.cpp
   }
-  return least;
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::ranges::nth_element(times, middle);
+  return *middle;
 }
 
 void add_samples(const Graph& graph, std::vector<solve::Sample>& samples) {

@@ -71,7 +71,7 @@ struct Isam2Options {
   double wildfire_threshold = 0.001;   // alpha: smallest change of a step that is passed down
   std::string ordering{order::default_ordering};
   order::Budget order_budget;  // of best, in every update
-  int relaxed_from = 64;  // rows of a clique that may join its parent (clique_tree.h)
+  int relaxed_from = 64;       // rows of a clique that may join its parent (clique_tree.h)
 };
 
 struct Isam2 {
