@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "formats/formats.h"
+#include "lib/factor/initialize.h"
 #include "lib/order/order.h"
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_replay.h"
