@@ -63,14 +63,19 @@ void draw_tree(cairo_t* page, const PageSize& size, const elim::Symbolic& symbol
   for (Index c = 0; c < tree.cliques(); ++c) total += costs.own[c];
   const double scale = (size.width - 2 * margin) / total;
   const std::vector<double> left = lefts(tree, costs, scale);
-  const int rows = 1 + *std::max_element(depth.begin(), depth.end());
+  const int levels = 1 + *std::max_element(depth.begin(), depth.end());
+  const auto is_seen = [&](Index c) { return scale * costs.below[c] >= narrowest; };
+  int rows = 1;
+  for (Index c = 0; c < tree.cliques(); ++c) {
+    if (is_seen(c)) rows = std::max(rows, 1 + depth[c]);
+  }
   const double row = std::min(margin, (size.height - 2 * margin) / rows);
   const double largest = *std::max_element(costs.own.begin(), costs.own.end());
   const double gap = std::min(0.5, row / 5);
   Index shown = 0;
   for (Index c = 0; c < tree.cliques(); ++c) {
+    if (!is_seen(c)) continue;
     const double width = scale * costs.below[c];
-    if (width < narrowest) continue;
     ++shown;
     set_color(page, heat(std::sqrt(costs.own[c] / largest)));
     cairo_rectangle(page, left[c], margin + row * depth[c],
@@ -80,7 +85,7 @@ void draw_tree(cairo_t* page, const PageSize& size, const elim::Symbolic& symbol
   heading.below =
       counted(tree.cliques(), "clique", "cliques") +
       (shown < tree.cliques() ? ", " + std::to_string(shown) + " wide enough to see" : "") + ", " +
-      counted(rows, "level", "levels") + "; as wide as a clique costs with all below it";
+      counted(levels, "level", "levels") + "; as wide as a clique costs with all below it";
   draw_heading(page, size, heading);
   draw_heat_legend(page, size, "a clique's own share of EC", largest, total);
 }
