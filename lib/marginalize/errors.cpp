@@ -18,8 +18,10 @@ using Eigen::VectorXd;
 constexpr int most_corrections = 10;  // of what damping leaves
 constexpr int most_steps = 40;        // of a measurement
 constexpr double enough = 1e-14;      // of its error
-constexpr double closer = 0.7;        // than before, or the slope is renewed
-constexpr double smallest = 1e-4;     // part of a step
+constexpr int most_halvings = 30;
+constexpr double near_enough = 1e-6, least_turn = 0.1;
+constexpr double closer = 0.7;     // than before, or the slope is renewed
+constexpr double smallest = 1e-4;  // part of a step
 // Added to the information of every scalar, as a part of it: next to nothing may be known of some directions.
 constexpr double damping = 1e-10;
 
@@ -205,20 +207,30 @@ VectorXd solved(const Moved& moved, const VectorXd& error, const MatrixXd& J,
   return y;
 }
 
+// Where no measurement has the error, as a rotation has none of more than half a turn, or next to nothing could be told with
+// it, it gets a half of it, or a half of that.
 void set_error(const Settlement& s, std::size_t k, const VectorXd& x) {
   Measurement& m = *s.measurements[k];
-  const VectorXd error = along(s, k, x);
-  if (error.isZero(0)) return;
-  const MatrixXd& J = s.slope[k];
+  const VectorXd whole = along(s, k, x);
+  if (whole.isZero(0)) return;
+  const MatrixXd &J = s.slope[k], own = J.rightCols(s.at.dim(ends(m).back()));
   const auto d = J.rows();
   const Moved moved{s.at, m.of,
                     J.transpose() * (J * J.transpose()).llt().solve(MatrixXd::Identity(d, d))};
-  m.numbers =
-      moved.numbers(solved(moved, error, J.rightCols(s.at.dim(ends(m).back())), m.information));
-  const Eigen::PartialPivLU<MatrixXd> turn(moved.turn(m.numbers));
-  const MatrixXd half = turn.transpose().solve(m.information);
-  const MatrixXd W = turn.transpose().solve(half.transpose());
-  m.information = (W + W.transpose()) / 2;
+  const auto size = [&](const VectorXd& r) { return std::sqrt(r.dot(m.information * r)); };
+  VectorXd error = whole;
+  for (int halved = 0; halved < most_halvings; ++halved, error /= 2) {
+    const VectorXd y = solved(moved, error, own, m.information);
+    const std::vector<double> z = moved.numbers(y);
+    const Eigen::PartialPivLU<MatrixXd> turn(moved.turn(z));
+    if (!(size(moved.rest(y, error)) < near_enough * size(error)) || !(turn.rcond() > least_turn))
+      continue;
+    m.numbers = z;
+    const MatrixXd half = turn.transpose().solve(m.information);
+    const MatrixXd W = turn.transpose().solve(half.transpose());
+    m.information = (W + W.transpose()) / 2;
+    return;
+  }
 }
 
 // x, by scalar of all vertices; nothing where nothing moves.

@@ -24,10 +24,6 @@ graph::GraphPattern pattern_left(const Graph& graph, const Marginalization& resu
 // `removed` of every vertex; none is fixed. `progress` is told how many are gone. Throws an input Error at the line of
 // an edge whose vertex cannot be taken out, since no measurement of g2o's could tell of a neighbour; before anything is
 // computed, but where that depends on what has been recovered.
-//
-// Topology ec makes two passes and more: a tree's graph has the order in which EC is priced, and then the graph that this
-// leaves; its price is that, a unit of EC, which a tree loses a unit of its own, times Sparsity::price, or the least that
-// an EC allows, found by bisection.
 Marginalization marginalize(const At& at, const std::vector<bool>& removed, const Rule& rule,
                             const Progress& progress = {});
 

@@ -90,6 +90,17 @@ END
   done
 }
 
+@test "what a pose was owed that goes as the last neighbour of another is not lost" {
+  [ -e "${SGTOOLS_DATA:-}/intel.g2o" ] || skip "SGTOOLS_DATA has no intel.g2o"
+  sg-solve -q "$SGTOOLS_DATA/intel.g2o" -o full.g2o
+  for how in '--topology tree' '--topology ec --cluster global' '--topology ec --cluster batch'; do
+    echo "$how"
+    sg-marg -q -r 4 $how full.g2o -o left.g2o
+    sg-solve -q left.g2o -o again.g2o
+    near "$(sg-score --no-header --align none -f ate_rmse --reference full.g2o again.g2o)" 0 1e-4
+  done
+}
+
 @test "every topology and clustering leaves a graph that is sound, of g2o's own tags" {
   sg-gen manhattan -n 60 --seed 3 | sg-solve -q -o full.g2o
   for topology in tree subgraph l1 seif ec 'dense --as poses'; do
