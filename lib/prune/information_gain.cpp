@@ -362,6 +362,7 @@ Gain estimated_loss(const Tried& tried) {
 
 void add(Knowledge& knowledge, Tried tried) {
   const Index at = knowledge.added_rows, height = tried.height(), end = at + height;
+  if (height == 0) return;  // all that it measures is held
   if (knowledge.l.rows() < end) {
     const Index size = solve::round_up(std::max(end, 2 * at));
     knowledge.l.conservativeResize(size, size);
