@@ -91,7 +91,7 @@ END
 }
 
 @test "what a pose was owed that goes as the last neighbour of another is not lost" {
-  [ -e "${SGTOOLS_DATA:-}/intel.g2o" ] || skip "SGTOOLS_DATA has no intel.g2o"
+  need_data
   sg-solve -q "$SGTOOLS_DATA/intel.g2o" -o full.g2o
   for how in '--topology tree' '--topology ec --cluster global' '--topology ec --cluster batch'; do
     echo "$how"
