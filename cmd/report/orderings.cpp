@@ -76,7 +76,7 @@ std::vector<Ordered> orderings(Study& study, const Deadline& deadline) {
     graph::Order order = cmd::order_by(method, study.methods, study.graph, study.variables);
     const double seconds = cmd::seconds_since(begin);
     const ec::Subject of = subject(study, method);
-    ec::ScoreRow row{of, elim::symbolic(study.variables.pattern, order)};
+    ec::ScoreRow row{of, order};
     const elim::Score& score = row.score();
     result.push_back(
         {method, std::move(order), seconds, score.ec, score.nnz, cells(score_columns(), row), {}});
