@@ -21,7 +21,7 @@ namespace {
 struct Options {
   cmd::PruneOptions pruning;
   cmd::TableOptions table;
-  cmd::MethodOptions method{{"wmf"}, 0};
+  cmd::MethodOptions method{{"wmf"}};
   cmd::Amount amount;
   std::optional<double> ec, ec_part, sigma, sigma_part;
   std::vector<double> at;

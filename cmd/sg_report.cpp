@@ -19,7 +19,7 @@ struct Options {
   cmd::OutputOptions output;
   std::string want;
   double budget = 120;
-  cmd::MethodOptions methods{{"colamd", "amd", "metis", "scotch", "wmf"}, 0};
+  cmd::MethodOptions methods{{"colamd", "amd", "metis", "scotch", "wmf"}};
   std::vector<std::string> policies;
   std::vector<Index> rates{2, 4, 8};
   std::optional<Index> min_obs;

@@ -58,25 +58,13 @@ std::vector<std::function<Graph()>> worlds() {
   return all;
 }
 
-<<<<<<< HEAD:cmd/solving/calibrate.cpp
-// The least of several, which is what it takes when nothing else goes on.
-double time_of(solve::Elimination& elimination, const factor::LinearSystem& system) {
-  double least = std::numeric_limits<double>::infinity(), sum = 0;
-  for (int run = 0; run < runs_each || sum < seconds_each; ++run) {
-    const double begin = cmd::processor_seconds();
-    solve::eliminate(elimination, system);
-    const double seconds = cmd::processor_seconds() - begin;
-    least = std::min(least, seconds);
-    sum += seconds;
-=======
 // The median of several, as --time has it.
-double time_of(Elimination& elimination, const factor::LinearSystem& system) {
+double time_of(solve::Elimination& elimination, const factor::LinearSystem& system) {
   std::vector<double> times;
   for (double sum = 0; times.size() < runs_each || sum < seconds_each; sum += times.back()) {
     const double begin = cmd::processor_seconds();
-    eliminate(elimination, system);
+    solve::eliminate(elimination, system);
     times.push_back(cmd::processor_seconds() - begin);
->>>>>>> predict:cmd/solve/calibrate.cpp
   }
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::ranges::nth_element(times, middle);

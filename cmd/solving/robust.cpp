@@ -37,8 +37,7 @@ std::vector<bool> edges_on(const std::string& on, const Graph& graph) {
 
 void add_robust(CLI::App& app, RobustOptions& options) {
   app.add_option("--kernel", options.kernel,
-                 cmd::wrapped_list(
-                     "Robust kernel of width W: ", text::names_of(factor::kernel_shapes()), ", "))
+                 cmd::wrapped_list("Robust: ", text::names_of(factor::kernel_shapes()), ", "))
       ->option_text("NAME:W");
   app.add_option("--kernel-on", options.on, "loops, observations, all (default: all but odometry)")
       ->option_text("WHAT")

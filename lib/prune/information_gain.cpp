@@ -336,10 +336,12 @@ void update(const Knowledge& knowledge, Tried& tried) {
   tried.shared.bottomRows(to - from).setZero();
   for (; tried.known < knowledge.added.size(); ++tried.known) {
     const Knowledge::Added& added = knowledge.added[tried.known];
+    if (added.height == 0) continue;
     add_inner_product(knowledge, added, tried, tried.shared.row(added.at).data(), stride);
   }
   kernel.solve_lower(knowledge.l.data(), static_cast<int>(knowledge.l.rows()), tried.shared.data(),
                      stride, from, to, h);
+  if (from == to) return;
   const double* const z = tried.shared.row(from).data();
   kernel.subtract_product(tried.covariance.data(), stride, z, stride, z, stride, h, h, to - from);
   kernel.subtract_product(tried.y.data(), draws, knowledge.added_y.row(from).data(), draws, z,
@@ -362,7 +364,6 @@ Gain estimated_loss(const Tried& tried) {
 
 void add(Knowledge& knowledge, Tried tried) {
   const Index at = knowledge.added_rows, height = tried.height(), end = at + height;
-  if (height == 0) return;  // all that it measures is held
   if (knowledge.l.rows() < end) {
     const Index size = solve::round_up(std::max(end, 2 * at));
     knowledge.l.conservativeResize(size, size);
@@ -372,8 +373,9 @@ void add(Knowledge& knowledge, Tried tried) {
   knowledge.l.block(at, 0, height, at) = tried.shared.leftCols(height).transpose();
   knowledge.l.block(at, at, height, height) = Eigen::LLT<MatrixXd>(information).matrixL();
   knowledge.added_y.middleRows(at, height) = tried.y;
-  solve::kernels().solve_lower(&knowledge.l(at, at), static_cast<int>(knowledge.l.rows()),
-                               knowledge.added_y.row(at).data(), draws, 0, height, draws);
+  if (height > 0)  // a landmark that is just determined adds none
+    solve::kernels().solve_lower(&knowledge.l(at, at), static_cast<int>(knowledge.l.rows()),
+                                 knowledge.added_y.row(at).data(), draws, 0, height, draws);
   knowledge.added.push_back({std::move(tried.path), std::move(tried.root), at, height});
   knowledge.added_rows = end;
 }

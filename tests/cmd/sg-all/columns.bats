@@ -61,6 +61,6 @@ words() { tr 'A-Z' 'a-z' | grep -oE '[a-z]{3,}' | sort -u; }
 }
 
 @test "a column that is not there" {
-  fails 2 "sg-ec: no column 'cost'; there are file, step, order, vertices, edges, dim, ec, rose, flops, nnz, fill, max_clique, height, cliques, ec_bt (see sg-ec --help)" \
+  fails 2 "sg-ec: no column 'cost'; there are file, step, order, vertices, edges, dim, ec, rose, flops, nnz, fill, max_clique, height, cliques, ec_bt, factor_bytes, peak_bytes, seconds (see sg-ec --help)" \
     sg-ec -f cost "$TESTDATA/walk.g2o"
 }

@@ -107,7 +107,7 @@ corridor() {
   sg-isam2 -q --budget 40000 --spend keyframes -f ec_bt,window,composed,moved,dropped,violations --no-header -o end.g2o world.g2o > rows.tsv
   [ "$(cut -f 1 rows.tsv | sort -n | tail -n 1)" -le 40000 ]
   read -r _ window composed moved dropped violations < <(tail -n 1 rows.tsv)
-  [ "$((window + composed))" = 400 ]
+  [ "$((window + composed))" -le 400 ]  # the oldest leave where composing does not do
   [ "$composed" -gt 100 ]
   [ "$moved" -gt "$composed" ]
   [ "$violations" = 0 ]
