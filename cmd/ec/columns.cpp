@@ -28,7 +28,7 @@ const elim::BayesTree& ScoreRow::tree() {
 }
 
 const solve::Forecast& ScoreRow::forecast() {
-  return cmd::once(forecast_, [&] { return solve::forecast(pattern(), order()); });
+  return cmd::once(forecast_, [&] { return solve::forecast(pattern(), order(), symbolic()); });
 }
 
 namespace {

@@ -9,7 +9,7 @@
 namespace sg::plot {
 namespace {
 
-constexpr double margin = 24, tick = 3, font = 7;
+constexpr double tick = 3, font = 7;
 constexpr Color ink{0, 0, 0};
 constexpr Color grey{0.35, 0.35, 0.35};
 

@@ -13,12 +13,12 @@ std::vector<std::pair<Color, std::string>> legend(const Graph& graph,
                                                   const std::vector<graph::EdgeRole>& roles,
                                                   const Overlay* overlay) {
   std::vector<std::pair<Color, std::string>> entries;
-  const auto explain = [&](graph::EdgeRole role, const Color& color, const char* words) {
-    if (std::ranges::find(roles, role) != roles.end()) entries.emplace_back(color, words);
+  const auto explain = [&](graph::EdgeRole role, const Color& color) {
+    if (std::ranges::find(roles, role) != roles.end()) entries.emplace_back(color, name_of(role));
   };
-  explain(graph::EdgeRole::odometry, path_color, "odometry");
-  explain(graph::EdgeRole::loop_closure, loop_color, "loop closures");
-  explain(graph::EdgeRole::observation, faint_color, "observations");
+  explain(graph::EdgeRole::odometry, path_color);
+  explain(graph::EdgeRole::loop_closure, loop_color);
+  explain(graph::EdgeRole::observation, faint_color);
   if (!vertices_of(graph, graph::Role::landmark).empty())
     entries.emplace_back(landmark_color, "landmarks");
   if (overlay) entries.emplace_back(overlay_color, overlay->name);

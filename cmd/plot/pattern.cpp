@@ -9,7 +9,6 @@
 namespace sg::plot {
 namespace {
 
-constexpr double margin = 24;
 constexpr std::int64_t most_cells = 1000;  // a side: finer than a screen shows
 
 enum class Cell : std::uint8_t { empty, fill, system };

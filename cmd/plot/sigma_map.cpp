@@ -12,8 +12,6 @@
 namespace sg::plot {
 namespace {
 
-constexpr double margin = 24;
-
 // How many times as large as they are ellipses are drawn, the largest with half an axis of `longest` metres: as far as
 // the map's margin.
 double enlargement(double longest, double scale) {

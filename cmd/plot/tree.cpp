@@ -11,7 +11,6 @@
 namespace sg::plot {
 namespace {
 
-constexpr double margin = 24;
 constexpr double narrowest = 0.15;  // points: less is not seen
 
 struct CliqueCosts {

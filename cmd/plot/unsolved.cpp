@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "cmd/plot/words.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
 #include "lib/factor/residuals.h"
@@ -13,19 +14,6 @@
 
 namespace sg::plot {
 namespace {
-
-const char* name_of(graph::EdgeRole role) {
-  switch (role) {
-    case graph::EdgeRole::odometry:
-      return "odometry";
-    case graph::EdgeRole::loop_closure:
-      return "loop closures";
-    case graph::EdgeRole::observation:
-      return "observations";
-    default:
-      return "other edges";
-  }
-}
 
 constexpr Index most_edges = 50000;  // more would say the same
 

@@ -13,8 +13,6 @@
 namespace sg::plot {
 namespace {
 
-constexpr double margin = 24;
-
 Projection fit(const std::vector<Point>& points, const PageSize& size) {
   const auto [left, right] = std::minmax_element(
       points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });

@@ -16,6 +16,9 @@ struct PageSize {
   double height;
 };
 
+// What a picture leaves free around what it draws, in points.
+constexpr double margin = 24;
+
 using Position = std::array<double, 3>;
 
 // Where every vertex is, as the file has it, or composed along odometry where it has edges only.

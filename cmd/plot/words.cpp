@@ -6,13 +6,11 @@
 #include "cmd/common/table.h"
 #include "cmd/plot/axes.h"
 #include "cmd/plot/heat.h"
-#include "lib/graph/replay.h"
 
 namespace sg::plot {
 namespace {
 
 constexpr Color ink{0, 0, 0};
-constexpr double margin = 24;
 
 // Right-aligned at x. Returns where the words begin.
 double show_left_of(cairo_t* page, double x, double y, const std::string& words) {
@@ -42,6 +40,19 @@ std::string counted(const Graph& graph) {
 
 std::string title(const Graph& graph, elim::Wide ec, const std::string& order) {
   return counted(graph) + ", EC " + elim::to_string(ec) + " (" + order + ")";
+}
+
+const char* name_of(graph::EdgeRole role) {
+  switch (role) {
+    case graph::EdgeRole::odometry:
+      return "odometry";
+    case graph::EdgeRole::loop_closure:
+      return "loop closures";
+    case graph::EdgeRole::observation:
+      return "observations";
+    default:
+      return "other edges";
+  }
 }
 
 void draw_heading(cairo_t* page, const PageSize& size, const Heading& heading) {

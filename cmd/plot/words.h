@@ -11,6 +11,7 @@
 #include "cmd/plot/view.h"
 #include "lib/elim/score.h"
 #include "lib/graph/graph.h"
+#include "lib/graph/replay.h"
 
 namespace sg::plot {
 
@@ -19,6 +20,9 @@ std::string counted(Index count, const char* one, const char* many);
 // "walk.g2o: 5 poses, 2 landmarks, 11 edges"; and with ", EC 697 (colamd)" behind
 std::string counted(const Graph& graph);
 std::string title(const Graph& graph, elim::Wide ec, const std::string& order);
+
+// What a picture calls edges of a role.
+const char* name_of(graph::EdgeRole role);
 
 // What stands above a picture, in two lines, in letters so small that they fit; a single line stands where a heading without
 // one below does.

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <utility>
 
 #include "cmd/common/processor.h"
 #include "cmd/common/stage.h"
+#include "cmd/solving/timing.h"
 #include "formats/formats.h"
 #include "lib/factor/initialize.h"
 #include "lib/order/order.h"
@@ -66,9 +68,7 @@ double time_of(solve::Elimination& elimination, const factor::LinearSystem& syst
     solve::eliminate(elimination, system);
     times.push_back(cmd::processor_seconds() - begin);
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::ranges::nth_element(times, middle);
-  return *middle;
+  return median(std::move(times));
 }
 
 void add_samples(const Graph& graph, std::vector<solve::Sample>& samples) {

@@ -9,15 +9,12 @@
 #include "lib/solve/linear_solver.h"
 
 namespace sg::solving {
-namespace {
 
 double median(std::vector<double> times) {
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::nth_element(times.begin(), middle, times.end());
   return *middle;
 }
-
-}  // namespace
 
 Timing timed(const TimingOptions& options, const factor::Problem& problem,
              const factor::Values& values, factor::LinearSystem& system, const std::string& label,

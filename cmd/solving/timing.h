@@ -28,6 +28,9 @@ struct Timing {
 
 extern const std::vector<cmd::Column<Timing>> time_columns;
 
+// Of one time at least; of an even number the later of the two in the middle.
+double median(std::vector<double> times);
+
 struct TimingOptions {
   int runs;  // eliminations under each ordering
   int threads;

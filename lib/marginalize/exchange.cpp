@@ -163,10 +163,10 @@ void exchange(const Whole& whole, const Eigen::VectorXd& owed, double rate,
   graph::Order order;
   // Shows what there is, fitted; returns what it loses and costs, infinite where it is not determined.
   const auto show = [&](int steps) {
-    const auto lost = fit(whole, offers, gap, steps);
-    if (!lost) return std::numeric_limits<double>::infinity();
     const graph::Pattern left = pattern_left(whole, offers).pattern;
     order = order::elimination_order("wmf", left);
+    const auto lost = fit(whole, order, gap, steps, offers);
+    if (!lost) return std::numeric_limits<double>::infinity();
     strain = strains(whole, owed, offers);
     const State state{offers, elim::to_double(elim::elimination_complexity(left, order)), *lost,
                       std::accumulate(strain.begin(), strain.end(), 0.0)};

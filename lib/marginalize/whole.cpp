@@ -236,11 +236,12 @@ std::optional<Offered> offered(const Whole& whole, std::span<const Measurable> o
   return result;
 }
 
-std::optional<double> fit(const Whole& whole, std::vector<Offer>& offers, double gap, int steps) {
+std::optional<double> fit(const Whole& whole, const graph::Order& order, double gap, int steps,
+                          std::vector<Offer>& offers) {
   const std::vector<const Offer*> all = taken(offers);
   Rest rest;
   set_rest(whole, all, rest);
-  solve::Elimination elimination = solve::plan_elimination(rest.rows, wmf(rest.left.pattern));
+  solve::Elimination elimination = solve::plan_elimination(rest.rows, order);
   std::vector<MatrixXd> W;
   for (const Offer* offer : all) W.push_back(offer->information);
   // The divergence with these informations, infinite where it is not determined.

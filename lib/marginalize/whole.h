@@ -51,9 +51,10 @@ struct Offered {
 std::optional<Offered> offered(const Whole& whole, std::span<const Measurable> of);
 
 // Sets the informations of all that is taken to the best: until no more than about `gap` nats could be gained, or `steps`
-// are done. Returns the divergence but for a constant, in nats; nothing where what is taken leaves variables
+// are done. order: of what is left (pattern_left). Returns the divergence but for a constant, in nats; nothing where what is taken leaves variables
 // undetermined.
-std::optional<double> fit(const Whole& whole, std::vector<Offer>& offers, double gap, int steps);
+std::optional<double> fit(const Whole& whole, const graph::Order& order, double gap, int steps,
+                          std::vector<Offer>& offers);
 
 // What each is worth, in nats: infinite where nothing else would determine what it does.
 std::vector<double> worths(const Whole& whole, const std::vector<Offer>& offers);

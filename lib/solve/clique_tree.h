@@ -15,7 +15,6 @@
 #include <span>
 #include <vector>
 
-#include "lib/elim/bayes_tree.h"
 #include "lib/graph/pattern.h"
 
 namespace sg::solve {

@@ -80,14 +80,12 @@ struct Plan {
   }
 };
 
-Plan plan(const graph::Pattern& pattern, const graph::Order& order) {
-  const elim::Links links = elim::links(pattern, order);
-  elim::Symbolic symbolic{{}, elim::elimination_tree(links), {}};
-  for (const Index j : order) symbolic.dim.push_back(pattern.dim[j]);
-  symbolic.count = elim::column_counts(links, symbolic.dim, symbolic.parent);
+Plan plan(const graph::Pattern& pattern, const graph::Order& order,
+          const elim::Symbolic& symbolic) {
   Plan result{elim::bayes_tree(symbolic), {}, {}, {}, {}};
   result.outline = outline_of(result.bayes);
-  result.separators = count_separators(links, symbolic.parent, result.bayes, result.outline);
+  result.separators =
+      count_separators(elim::links(pattern, order), symbolic.parent, result.bayes, result.outline);
   result.children = graph::grouped(result.outline.tree.parent, result.cliques());
   result.update_at.assign(result.cliques(), 0);
   for (Index c = 0; c < result.cliques(); ++c) {
@@ -114,7 +112,7 @@ void count_bytes(const graph::Pattern& pattern, Plan& plan, Forecast& result) {
 }
 
 // The place of a kind in an array of them.
-constexpr std::size_t kind(std::string_view name) {
+consteval std::size_t kind(std::string_view name) {
   std::size_t k = 0;
   while (kinds[k].name != name) ++k;
   return k;
@@ -133,14 +131,14 @@ void count_front(const Plan& plan, Index c, Work& work) {
   const double variables = plan.separators.of[c];
   work[kind("update")] += (n - f) * (n - f);
   work[kind("block")] += variables * variables;
-  work[kind(is_large(front.f, front.n) ? "panel" : "product")] += f * (n * n - f * n + f * f / 3);
+  work[is_large(front.f, front.n) ? kind("panel") : kind("product")] +=
+      f * (n * n - f * n + f * f / 3);
 }
 
 // A row is assembled where its first variable is eliminated; of a leaf without an update, by its parent as well.
 void count_rows(const graph::Pattern& pattern, const graph::Order& order, const Plan& plan,
                 Work& work) {
-  std::vector<Index> position(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<Index>(k);
+  const std::vector<Index> position = elim::positions(order, pattern.variables());
   for (Index r = 0; r < pattern.rows.size(); ++r) {
     double width = 1;
     int largest = 0;
@@ -170,13 +168,18 @@ std::int64_t peak_bytes(const Elimination& e) {
   return factor_bytes(e) + bytes(e.updates);
 }
 
-Forecast forecast(const graph::Pattern& pattern, const graph::Order& order) {
-  Plan elimination = plan(pattern, order);
+Forecast forecast(const graph::Pattern& pattern, const graph::Order& order,
+                  const elim::Symbolic& symbolic) {
+  Plan elimination = plan(pattern, order, symbolic);
   Forecast result;
   count_bytes(pattern, elimination, result);
   for (Index c = 0; c < elimination.cliques(); ++c) count_front(elimination, c, result.work);
   count_rows(pattern, order, elimination, result.work);
   return result;
+}
+
+Forecast forecast(const graph::Pattern& pattern, const graph::Order& order) {
+  return forecast(pattern, order, elim::symbolic(pattern, order));
 }
 
 double seconds(const Work& work, const Times& times) {

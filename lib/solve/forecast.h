@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/elim/score.h"
 #include "lib/graph/pattern.h"
 #include "lib/solve/eliminate.h"
 
@@ -54,6 +55,9 @@ struct Forecast {
 };
 // Throws std::invalid_argument if `order` is no permutation.
 Forecast forecast(const graph::Pattern& pattern, const graph::Order& order);
+// The same where the symbolic elimination is known.
+Forecast forecast(const graph::Pattern& pattern, const graph::Order& order,
+                  const elim::Symbolic& symbolic);
 
 // Nanoseconds of every kind's unit.
 using Times = std::array<double, kinds.size()>;

@@ -83,6 +83,13 @@ void let_row_go(Isam2& isam, Index r) {
   isam.gram_at[r] = -1;
 }
 
+std::vector<Index> rows_in(const Isam2& isam, Index j) {
+  std::vector<Index> rows;
+  std::ranges::copy_if(isam.rows_of[j], std::back_inserter(rows),
+                       [&](Index r) { return isam.tree.row_clique[r] >= 0; });
+  return rows;
+}
+
 double chi2(const Isam2& isam) {
   double sum = 0;
   for (Index e = 0; e < isam.problem->graph->edges(); ++e) {

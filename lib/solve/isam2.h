@@ -143,6 +143,9 @@ Isam2Report update(Isam2& isam, std::span<const Index> variables, std::span<cons
 void hold_row(Isam2& isam, Index r);
 void let_row_go(Isam2& isam, Index r);
 
+// Rows of variable j that are there.
+std::vector<Index> rows_in(const Isam2& isam, Index j);
+
 // chi-square of the rows that are there, at the estimate. Throws finite_edge_chi2's Error.
 double chi2(const Isam2& isam);
 

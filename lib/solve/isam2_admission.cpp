@@ -34,10 +34,6 @@ double rate(double gain, double cost) {
   return gain / (cost + cost_of_row);
 }
 
-Index variable_of(const Isam2Replay& replay, Index v) {
-  return replay.problem->variables.vertex_variable[v];
-}
-
 // An offer that has been looked at.
 struct Bid {
   const Offer* offer;
@@ -72,16 +68,12 @@ std::optional<Bid> bid_of(Isam2Replay& replay, Admission& admission, const Offer
 
 // Those of its edges that are in.
 std::vector<Index> edges_of(const Isam2& isam, const Admission::Held& held) {
-  std::vector<Index> edges;
-  const auto add = [&](Index e) {
-    if (isam.tree.row_clique[e] >= 0) edges.push_back(e);
-  };
   if (held.edge >= 0) {
-    add(held.edge);
-  } else if (!isam.pinned[held.landmark]) {  // what is in a prior cannot be taken out of it
-    std::ranges::for_each(isam.rows_of[held.landmark], add);
+    const bool in = isam.tree.row_clique[held.edge] >= 0;
+    return in ? std::vector{held.edge} : std::vector<Index>{};
   }
-  return edges;
+  // What is in a prior cannot be taken out of it.
+  return isam.pinned[held.landmark] ? std::vector<Index>{} : rows_in(isam, held.landmark);
 }
 
 // What holding this edge is worth now.
@@ -152,13 +144,9 @@ Choice choose(Isam2Replay& replay, Admission& admission, std::vector<Bid> bids, 
 void give_back(Isam2& isam, Admission& admission, const Admission::Held& held) {
   for (Index e : edges_of(isam, held)) {
     ++admission.returned;
-    mark_to_root(isam, isam.tree.row_clique[e]);
-    let_row_go(isam, e);
+    take_row_out(isam, e);
   }
-  if (held.landmark < 0) return;
-  mark_to_root(isam, isam.tree.variable_clique[held.landmark]);
-  isam.tree.variable_clique[held.landmark] = -1;
-  --isam.variables;
+  if (held.landmark >= 0) take_variable_out(isam, held.landmark);
 }
 
 Entering entering(const Choice& choice) {

@@ -9,10 +9,6 @@
 namespace sg::solve {
 namespace {
 
-Index variable_of(const Isam2Replay& replay, Index v) {
-  return replay.problem->variables.vertex_variable[v];
-}
-
 // And stays.
 bool is_there(const Isam2Replay& replay, Index v) {
   const Index j = variable_of(replay, v);
@@ -111,13 +107,6 @@ bool move_edge(Isam2Replay& replay, Keyframes& keyframes, Index e) {
   return true;
 }
 
-std::vector<Index> rows_in(const Isam2& isam, Index j) {
-  std::vector<Index> rows;
-  std::ranges::copy_if(isam.rows_of[j], std::back_inserter(rows),
-                       [&](Index r) { return isam.tree.row_clique[r] >= 0; });
-  return rows;
-}
-
 bool can_be_composed(const Isam2Replay& replay, Index k, int min_obs) {
   const Isam2& isam = replay.isam;
   const Index v = replay.poses.pose[k], j = variable_of(replay, v);
@@ -144,17 +133,6 @@ double way_variance(const Isam2Replay& replay, Index k) {
   const Index v = replay.poses.pose[k];
   const Index link = best_link(replay, v, rows_in(replay.isam, variable_of(replay, v)));
   return variance(relative_pose(*replay.problem, link));
-}
-
-void take_row_out(Isam2& isam, Index r) {
-  mark_to_root(isam, isam.tree.row_clique[r]);
-  let_row_go(isam, r);
-}
-
-void take_variable_out(Isam2& isam, Index j) {
-  mark_to_root(isam, isam.tree.variable_clique[j]);
-  isam.tree.variable_clique[j] = -1;
-  --isam.variables;
 }
 
 std::vector<Index> compose_away(Isam2Replay& replay, Keyframes& keyframes, Index k) {

@@ -54,17 +54,10 @@ double way_variance(const Isam2Replay& replay, Index k);
 // Between begin_update and plan_top. Returns the landmarks that pose k had seen.
 std::vector<Index> compose_away(Isam2Replay& replay, Keyframes& keyframes, Index k);
 
-// Takes a row, or a variable of which no row is left, out between begin_update and plan_top.
-void take_row_out(Isam2& isam, Index r);
-void take_variable_out(Isam2& isam, Index j);
-
 // Between begin_update and plan_top: whether row r comes in with the update.
 inline bool enters(const Isam2& isam, Index r) {
   return isam.tree.row_clique[r] < 0 && isam.gram_at[r] >= 0;
 }
-
-// Rows of variable j that are in.
-std::vector<Index> rows_in(const Isam2& isam, Index j);
 
 // By how much EC_BT falls without variable j, by the tree as it is.
 double freed_by(const Isam2& isam, Index j);

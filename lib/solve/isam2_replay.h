@@ -26,6 +26,11 @@ struct Isam2Replay {
   Isam2 isam;
 };
 
+// -1 of a constant.
+inline Index variable_of(const Isam2Replay& replay, Index v) {
+  return replay.problem->variables.vertex_variable[v];
+}
+
 // start_from_file needs a file with estimates; throws an input Error otherwise.
 Isam2Replay make_isam2_replay(const factor::Problem& problem, const Isam2Options& options,
                               int min_obs, bool start_from_file);

@@ -45,10 +45,10 @@ double worth(Isam2Window& window, Index pose, Index k) {
   const Graph& graph = *window.replay.problem->graph;
   const Index v = window.replay.poses.pose[pose];
   std::vector<Index> observations;
-  for (Index r : rows_in(isam, window.replay.problem->variables.vertex_variable[v])) {
+  for (Index r : rows_in(isam, variable_of(window.replay, v))) {
     if (r >= graph.edges()) continue;
     for (Index end : graph.edge(r)) {
-      const Index j = window.replay.problem->variables.vertex_variable[end];
+      const Index j = variable_of(window.replay, end);
       if (graph.role(end) == graph::Role::landmark && j >= 0 &&
           static_cast<int>(rows_in(isam, j).size()) > window.min_obs)
         observations.push_back(r);
@@ -71,7 +71,7 @@ double rate_of_composing(Isam2Window& window, Index pose, Index k) {
   const Isam2Replay& replay = window.replay;
   if (is_composed(window.keyframes, pose) || !can_be_composed(replay, pose, window.min_obs))
     return infinite;
-  const Index j = replay.problem->variables.vertex_variable[replay.poses.pose[pose]];
+  const Index j = variable_of(replay, replay.poses.pose[pose]);
   const double way = way_variance(replay, pose) + window.keyframes.spread[pose];
   const double share = way / (way + window.spending.closure + 1e-12);
   const double loss = worth(window, pose, k) + expected(window, pose, k) * share;
@@ -115,7 +115,7 @@ void settle_landmarks(Isam2Window& window, std::span<const Index> landmarks) {
   Isam2Replay& replay = window.replay;
   Isam2& isam = replay.isam;
   for (const Index v : landmarks) {
-    const Index j = replay.problem->variables.vertex_variable[v];
+    const Index j = variable_of(replay, v);
     if (j < 0 || window.left[v] || isam.tree.variable_clique[j] < 0) continue;
     int count = 0, height = 0;
     Index last = -1;
@@ -216,7 +216,7 @@ CliqueTree plan_spending(Isam2Window& window, const Entering& entering, Index k,
       any = true;
       if (pose >= 0 && window.spending.rates[pose] < rate) {
         const Index v = window.replay.poses.pose[pose];
-        excess -= freed_by(window.replay.isam, window.replay.problem->variables.vertex_variable[v]);
+        excess -= freed_by(window.replay.isam, variable_of(window.replay, v));
         if (!composed) excess += slack * budget;
         composed = true;
         worst = std::max(worst, window.spending.rates[pose]);

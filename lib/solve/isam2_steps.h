@@ -25,6 +25,10 @@ Index relinearize(Isam2& isam);
 void mark_to_root(Isam2& isam, Index c);
 void mark_all(Isam2& isam);
 
+// Takes a row, or a variable of which no row is left, out between begin_update and plan_top (isam2_top.cpp).
+void take_row_out(Isam2& isam, Index r);
+void take_variable_out(Isam2& isam, Index j);
+
 // Step 3, algorithm 6 (isam2_top.cpp), and 4. Takes the marked cliques out, and eliminates their variables
 // and the new ones again: rows that the cliques held, the new ones, and what the orphans pass up. The
 // new cliques are left in work.made, children before parents. Then solves down, if nothing is undetermined. Reports all

@@ -139,6 +139,17 @@ void adopt_cliques(Isam2& isam, const CliqueTree& top) {
 
 }  // namespace
 
+void take_row_out(Isam2& isam, Index r) {
+  mark_to_root(isam, isam.tree.row_clique[r]);
+  let_row_go(isam, r);
+}
+
+void take_variable_out(Isam2& isam, Index j) {
+  mark_to_root(isam, isam.tree.variable_clique[j]);
+  isam.tree.variable_clique[j] = -1;
+  --isam.variables;
+}
+
 CliqueTree plan_top(Isam2& isam, std::span<const Index> new_variables,
                     std::span<const Index> new_rows) {
   mark_all_if_many(isam);

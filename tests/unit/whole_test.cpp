@@ -146,11 +146,13 @@ TEST_CASE("what the whole graph knows of a pair, and the divergence, by dense in
     Case test(text_of(random, seed), random);
     auto& offers = test.offered.offers;
     const double before = test.divergence(offers);
-    const auto lost = marginalize::fit(test.whole, offers, 0, 0);
+    const auto order =
+        sg::order::elimination_order("wmf", marginalize::pattern_left(test.whole, offers).pattern);
+    const auto lost = marginalize::fit(test.whole, order, 0, 0, offers);
     REQUIRE(lost);
     CHECK(*lost + test.offered.constant == Approx(before).epsilon(1e-7).margin(1e-8));
 
-    const auto fitted = marginalize::fit(test.whole, offers, 1e-9, 1000);
+    const auto fitted = marginalize::fit(test.whole, order, 1e-9, 1000, offers);
     REQUIRE(fitted);
     CHECK(*fitted <= *lost + 1e-12);
     CHECK(*fitted + test.offered.constant ==
