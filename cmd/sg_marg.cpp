@@ -93,6 +93,7 @@ void add_options(cmd::Command& command, Options& options) {
       ->type_name("PART")
       ->check(cmd::above_zero());
   app.add_flag("--conservative", options.conservative, "Never know more than there was known");
+  cmd::add_unused_seed(app);
   cmd::add_filter_output(command, options.output);
 }
 

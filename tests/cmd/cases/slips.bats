@@ -66,7 +66,7 @@ terminal() {
 }
 
 @test "every pruning command takes --seed" {
-  for command in sg-kf sg-dec sg-rand sg-tgreedy sg-ecgreedy; do run -0 $command -r 2 --seed 3 walk.g2o; done
+  for command in sg-kf sg-dec sg-rand sg-tgreedy sg-ecgreedy sg-marg; do run -0 $command -r 2 --seed 3 walk.g2o; done
 }
 
 @test "the name of an output promises what is written" {
