@@ -12,7 +12,7 @@ path='rgb(12%,30%,55%)' loop='rgb(85%,45%,10%)' landmark='rgb(15%,50%,25%)'
   [ "$(shapes map.svg "$loop")" -eq 2 ]
   [ "$(shapes map.svg "$landmark")" -eq 2 ]
   # five poses a metre apart from margin to margin
-  grep -o 'M [0-9.]* 3[0-9.]* L [0-9.]* 3[0-9.]*' map.svg | head -n 1 | grep -qx 'M 576 [0-9.]* L 24 [0-9.]*'
+  grep -o 'M [0-9.]* 3[0-9.]* L [0-9.]* 3[0-9.]*' map.svg | sed -n 1p | grep -qx 'M 576 [0-9.]* L 24 [0-9.]*'
 }
 
 @test "a map of edges alone is composed along odometry" {
@@ -225,7 +225,7 @@ overlaid='rgb(49%,18%,56%)' error='rgb(91%,16%,54%)'
   [ "$(colours front.svg)" = 3 ]  # between the far ones, from one to a near one, between those
   # The last one drawn is the nearest, in full colour; the first the farthest, paler.
   grep 'stroke-width:0.8;' front.svg | tail -n 1 | grep -q "stroke:$path"
-  grep 'stroke-width:0.8;' front.svg | head -n 1 | grep -q 'stroke:rgb(78%,'
+  grep 'stroke-width:0.8;' front.svg | sed -n 1p | grep -q 'stroke:rgb(78%,'
   sg-plot map walk.g2o >flat.svg
   [ "$(colours flat.svg)" = 1 ]
 }

@@ -64,8 +64,8 @@ kills() {
   sweep whole
   sweep here SWEEP=parallel
   same whole here
-  # An ssh to this machine, which drops everything but the command.
-  printf '#!/bin/sh\nwhile [ "$1" != exec ] && [ $# -gt 1 ]; do shift; done\nexec sh -c "$*"\n' >wrapped/ssh
+  # An ssh to this machine, which drops everything but the command; a login has a shell.
+  printf '#!/bin/sh\nexport SHELL=/bin/sh\nwhile [ "$1" != exec ] && [ $# -gt 1 ]; do shift; done\nexec sh -c "$*"\n' >wrapped/ssh
   chmod +x wrapped/ssh
   PARALLEL_SSH=$PWD/wrapped/ssh sweep there SWEEP=parallel SSHLOGIN=2/elsewhere
   same whole there
