@@ -15,6 +15,9 @@ namespace {
 
 constexpr Index small_piece = 300;    // not parted
 constexpr double largest_part = 0.9;  // of a piece; a separator that leaves more parts nothing
+// Up to so many times what dissection of a piece costs, minimum fill may win the piece around it. It does not where that is
+// more than so much a list entry.
+constexpr double near = 1.1, narrow = 30'000;
 
 struct Graph {
   const graph::Adjacency& adjacency;
@@ -37,10 +40,17 @@ graph::Adjacency with_outer(const Piece& piece) {
   return all;
 }
 
-Dissected by_minimum_fill(const Piece& piece) {
+// An order of a piece, and whether minimum fill comes near it, or did in a part.
+struct Ordered {
+  Dissected found;
+  bool contested = false;
+};
+
+// Empty if EC is above the limit.
+Dissected by_minimum_fill(const Piece& piece, elim::Wide limit = ~elim::Wide{0}) {
   std::vector<int> dim = piece.inner_weight;
   dim.insert(dim.end(), piece.outer_weight.begin(), piece.outer_weight.end());
-  GreedyResult found = greedy_fill_of_part(with_outer(piece), dim, piece.size());
+  GreedyResult found = greedy_fill_of_part(with_outer(piece), dim, piece.size(), limit);
   for (Index& v : found.order) v = piece.inner[v];
   return {std::move(found.order), found.ec};
 }
@@ -110,15 +120,17 @@ void append(Dissected& all, const Dissected& part) {
   all.ec += part.ec;
 }
 
-Dissected dissected(Graph& graph, const Piece& piece);
+Ordered dissected(Graph& graph, const Piece& piece);
 
 // All parts, one after the other. Their surroundings, if they are wanted, are added to `around`.
-Dissected dissected(Graph& graph, const graph::Lists<>& parts, graph::Lists<>& around) {
-  Dissected all{{}, 0};
+Ordered dissected(Graph& graph, const graph::Lists<>& parts, graph::Lists<>& around) {
+  Ordered all{{{}, 0}, false};
   for (Index k = 0; k < parts.size(); ++k) {
     const Piece part =
         piece(graph.adjacency, graph.dim, {parts[k].begin(), parts[k].end()}, graph.number);
-    append(all, dissected(graph, part));
+    const Ordered one = dissected(graph, part);
+    append(all.found, one.found);
+    all.contested = all.contested || one.contested;
     around.add(part.outer);
   }
   return all;
@@ -132,18 +144,30 @@ bool parts_nothing(const Piece& piece, const graph::Lists<>& parts) {
   return largest > largest_part * piece.size();
 }
 
-Dissected dissected(Graph& graph, const Piece& piece) {
-  if (piece.size() <= small_piece) return by_minimum_fill(piece);
+// Minimum fill's order in place of another, if it is cheaper.
+void contest(const Piece& piece, Ordered& by_parts) {
+  const auto ec = static_cast<double>(by_parts.found.ec);
+  const auto entries = static_cast<double>(piece.inside.items.size() + piece.around.items.size());
+  by_parts.contested = by_parts.contested && ec <= narrow * entries;
+  if (!by_parts.contested) return;
+  Dissected other = by_minimum_fill(piece, static_cast<elim::Wide>(near * ec));
+  by_parts.contested = !other.order.empty();
+  if (by_parts.contested && other.ec < by_parts.found.ec) by_parts.found = std::move(other);
+}
+
+Ordered dissected(Graph& graph, const Piece& piece) {
+  if (piece.size() <= small_piece) return {by_minimum_fill(piece), true};
   const Separation side = separation(piece, graph.seed + 1);
-  if (side.empty()) return by_minimum_fill(piece);
+  if (side.empty()) return {by_minimum_fill(piece), true};
   const graph::Lists<> below = parts(piece, side);
-  if (parts_nothing(piece, below)) return by_minimum_fill(piece);
+  if (parts_nothing(piece, below)) return {by_minimum_fill(piece), true};
   graph::Lists<> around;
-  Dissected result = dissected(graph, below, around);
+  Ordered result = dissected(graph, below, around);
   Top separator = top(piece, side);
   join_around(piece, around, graph.number, separator);
-  for (const Index v : separator.order) result.order.push_back(piece.inner[v]);
-  result.ec += separator_ec(separator);
+  for (const Index v : separator.order) result.found.order.push_back(piece.inner[v]);
+  result.found.ec += separator_ec(separator);
+  contest(piece, result);
   return result;
 }
 
@@ -195,7 +219,7 @@ Dissected nested_dissection(const graph::Adjacency& graph, const std::vector<int
   std::iota(all.begin(), all.end(), 0);
   const Piece whole = piece(graph, dim, std::move(all), g.number);
   graph::Lists<> around;
-  return dissected(g, parts(whole, Separation(inner, 0)), around);
+  return dissected(g, parts(whole, Separation(inner, 0)), around).found;
 }
 
 graph::Order dissect(const graph::Adjacency& graph, const std::vector<int>& dim,

@@ -3,7 +3,8 @@
 //
 // Separators (separator.h) part the graph again and again. Small pieces are ordered by a greedy pass that knows what is
 // around them (fill_graph.h): what a piece costs depends on no other, so that the elimination complexity of all is the sum of
-// what the pieces say.
+// what the pieces say. Larger ones are ordered so, too, as long as that comes near in one of their parts, and the cheaper
+// order stays.
 //
 // Time: every level of pieces looks at every edge a few dozen times, and there are about log2(n / 300) levels. Memory
 // O(n + m). One thread; the same order on any machine with the same METIS.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "lib/order/levels.h"
 #include "lib/order/metis.h"
 #include "lib/order/price.h"
 #include "lib/order/refine.h"
@@ -54,14 +55,18 @@ Separation separation(const Piece& piece, std::uint64_t seed) {
   constexpr int passes = 2, patience = 40;
   Candidate best;
   std::optional<Prices> by;  // of the first, so that all are measured alike
-  int enough = 4;            // as long as none has two sides
-  for (int k = 0; k < enough; ++k) {
-    Candidate next{metis_separation(piece, seed + static_cast<std::uint64_t>(k)), 0};
+  const auto try_one = [&](Separation&& side) {
+    if (side.empty()) return;
+    Candidate next{std::move(side), 0};
     if (!by) by = prices(piece, static_cast<double>(sizes(piece, next.side).separator));
     next.price = refine(piece, *by, passes, patience, next.side);
-    if (!std::isfinite(next.price)) continue;
     if (next.price < best.price) best = std::move(next);
-    enough = worthwhile(piece, best.price);
+  };
+  int enough = 4;  // as long as none has two sides
+  for (int k = 0; k < enough; ++k) {
+    try_one(metis_separation(piece, seed + static_cast<std::uint64_t>(k)));
+    if (k == 0) try_one(level_separation(piece, *by));
+    if (std::isfinite(best.price)) enough = worthwhile(piece, best.price);
   }
   if (!best.side.empty()) improve(piece, *by, best);
   return std::move(best.side);

@@ -200,21 +200,23 @@ elim::Wide ec_of_part(const graph::Adjacency& graph, const std::vector<int>& dim
 }  // namespace
 
 GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
-                                 Index inner) {
+                                 Index inner, elim::Wide limit) {
   const std::int64_t work_limit = GreedyOptions{}.exact_work * entries(graph);
   const Preference preference = preferences(graph.size(), {});
   FillGraph g = fill_graph_of_part(graph, dim, inner, work_limit);
   const auto all_done = [&](Index next) { return next >= inner; };
   if (g.exact) {
     run(g, preference, [&](Index next) {
-      return all_done(next) ||
+      return all_done(next) || g.variables.ec > limit ||
              static_cast<double>(g.work) + least_work(g, next) > static_cast<double>(work_limit);
     });
   }
+  GreedyResult result{{}, g.variables.ec, g.work};
+  if (result.ec > limit) return result;
   if (static_cast<Index>(g.variables.order.size()) == inner) {
-    return {std::move(g.variables.order), g.variables.ec, g.work};
+    result.order = std::move(g.variables.order);
+    return result;
   }
-  GreedyResult result{{}, 0, g.work};
   QuotientGraph rest = quotient_graph(std::move(g));
   run(rest, preference, all_done);
   result.order = std::move(rest.variables.order);
@@ -224,8 +226,8 @@ GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vecto
 
 namespace {
 
-// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, as amd tells it, minimum
-// fill is not on a graph of more than so many entries.
+// EC a list entry of the graph: up to the one, dissection is not worth a try; beyond the other, minimum fill is not on a
+// graph of more than so many entries.
 constexpr std::int64_t narrow = 1000, wide = 2000, medium = 15'000;
 // Variables of a graph that dissection would leave to minimum fill at once, about.
 constexpr Index small = 400;
@@ -294,9 +296,10 @@ graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
   if (size > medium) greedy.bounded_work = most_work * size;
   // Where variables have many neighbours, landmarks do, a high EC says nothing of width.
   const bool sparse = size <= dense * std::int64_t{graph.size()};
-  if (sparse && size > medium && by_amd > static_cast<elim::Wide>(wide * size)) {
+  if (sparse && size > medium && is_wide(graph, by_amd)) {
     GreedyResult best = by_dissection(pattern, graph, options.seed);
-    if (!is_wide(graph, best.ec)) {
+    if (best.ec <= static_cast<elim::Wide>(wide * size)) {
+      greedy.limit = best.ec;
       keep_better(best, minimum_fill(pattern, graph, greedy, std::move(amd)));
     }
     return std::move(best.order);

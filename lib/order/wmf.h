@@ -27,9 +27,9 @@
 //
 // No greedy is best everywhere: amd is one of the candidates, where the pass was quick plain fill is another, and on a dense
 // graph a pass by bounds alone (below); the least EC wins. Graphs that are wide in all directions are parted by separators
-// first, and the greedy orders what these leave (dissect.h). What amd costs for every entry of the graph tells which they are: a
-// large wide one is dissected, and ordered by the greedy too only if it turns out not to be wide; a small wide one is ordered
-// both ways; others, and those of many neighbours a variable, are not dissected. With `last` it is one pass: that form
+// first, and the greedy orders what these leave, or more of it where that is cheaper (dissect.h). What amd costs for every entry
+// of the graph tells which they are: a large wide one is dissected, and ordered by the greedy too only if it turns out not to be
+// very wide; a small wide one is ordered both ways; others, and those of many neighbours a variable, are not dissected. With `last` it is one pass: that form
 // orders parts of a graph anew at every step of a replay, where time is short.
 //
 // Exactness. While the graph is small enough, fill is exact, kept up to date edge by edge
@@ -84,9 +84,9 @@ GreedyResult greedy_fill(const graph::Pattern& pattern, const graph::Adjacency& 
                          const GreedyOptions& options);
 
 // One pass over a part of a graph (fill_graph.h): its first `inner` variables. The order is of
-// these alone, and so is its EC. Neither seed nor stage.
+// these alone, and so is its EC. Neither seed nor stage. limit: as in GreedyOptions.
 GreedyResult greedy_fill_of_part(const graph::Adjacency& graph, const std::vector<int>& dim,
-                                 Index inner);
+                                 Index inner, elim::Wide limit = ~elim::Wide{0});
 
 // Whether dissection may do better than a greedy order of this EC: whether it is high for so many edges.
 bool is_wide(const graph::Adjacency& graph, elim::Wide ec);

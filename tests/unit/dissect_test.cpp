@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/order/fill_graph.h"
+#include "lib/order/levels.h"
 #include "lib/order/order.h"
 #include "lib/order/price.h"
 #include "lib/order/refine.h"
@@ -249,6 +250,107 @@ TEST_CASE("the price of a separation is what its formula says", "[dissect]") {
   CHECK(std::isinf(sg::order::price(prices, sizes)));
 }
 
+// Distances from a vertex, by relaxing every edge until nothing changes.
+std::vector<Index> literal_distances(const Piece& piece, Index root) {
+  std::vector<Index> distance(piece.size(), piece.size());
+  distance[root] = 0;
+  for (bool changed = true; std::exchange(changed, false);) {
+    for (Index v = 0; v < piece.size(); ++v) {
+      for (const Index u : piece.inside[v]) {
+        if (distance[u] <= distance[v] + 1) continue;
+        distance[u] = distance[v] + 1;
+        changed = true;
+      }
+    }
+  }
+  return distance;
+}
+
+// The cheapest separation of a level structure's levels: what is nearer is side 0.
+double cheapest_level(const Piece& piece, const std::vector<Index>& distance,
+                      const sg::order::Prices& prices) {
+  double best = std::numeric_limits<double>::infinity();
+  for (Index level = 0; level < std::ranges::max(distance); ++level) {
+    Separation side(piece.size());
+    for (Index v = 0; v < piece.size(); ++v) {
+      side[v] = distance[v] > level ? 1 : distance[v] < level ? 0 : sg::order::in_separator;
+      const auto others = piece.inside[v];
+      if (distance[v] == level &&
+          std::ranges::none_of(others, [&](Index u) { return distance[u] > level; })) {
+        side[v] = 0;
+      }
+    }
+    best = std::min(best, sg::order::price(prices, literal_sizes(piece, side)));
+  }
+  return best;
+}
+
+TEST_CASE("a separator of levels parts the piece, for no more than any level from its ends",
+          "[dissect]") {
+  Random random(9);
+  int parted = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Index width = draw(random, 2, 12);
+    const Pattern pattern = odd_grid(random, width);
+    const Adjacency graph = sg::graph::adjacency(pattern);
+    const Piece all = piece_of(graph, pattern.dim, first(width * width - draw(random, 0, width)));
+    const auto connected = sg::order::parts(all, Separation(all.size(), 0));
+    const Piece piece = piece_of(graph, pattern.dim, {connected[0].begin(), connected[0].end()});
+    const sg::order::Prices prices = sg::order::prices(piece, 10);
+    const Separation side = sg::order::level_separation(piece, prices);
+    if (side.empty()) continue;
+    ++parted;
+    REQUIRE(separates(piece, side));
+    const double price = sg::order::price(prices, literal_sizes(piece, side));
+    CHECK(std::isfinite(price));
+    // An end: farthest from where the last search began, with the fewest neighbours there.
+    const auto far_end = [&](const std::vector<Index>& distance) {
+      const Index most = std::ranges::max(distance);
+      std::size_t fewest = piece.size();
+      for (Index v = 0; v < piece.size(); ++v) {
+        if (distance[v] == most) fewest = std::min(fewest, piece.inside[v].size());
+      }
+      std::vector<Index> ends;
+      for (Index v = 0; v < piece.size(); ++v) {
+        if (distance[v] == most && piece.inside[v].size() == fewest) ends.push_back(v);
+      }
+      return ends;
+    };
+    // Several may be as far: it has taken one of them, twice.
+    double dearest = 0;
+    for (const Index to : far_end(literal_distances(piece, 0))) {
+      for (const Index from : far_end(literal_distances(piece, to))) {
+        for (const Index end : {to, from}) {
+          dearest = std::max(dearest, cheapest_level(piece, literal_distances(piece, end), prices));
+        }
+      }
+    }
+    CHECK(price <= dearest * (1 + 1e-12));
+    CHECK(sg::order::level_separation(piece, prices) == side);
+  }
+  CHECK(parted > 100);
+}
+
+TEST_CASE("the levels of a grid in space from its corner are its diagonal planes", "[dissect]") {
+  constexpr Index n = 9;
+  const auto cell = [](Index x, Index y, Index z) { return (z * n + y) * n + x; };
+  std::vector<std::vector<Index>> rows;
+  for (Index z = 0; z < n; ++z) {
+    for (Index y = 0; y < n; ++y) {
+      for (Index x = 0; x < n; ++x) {
+        if (x + 1 < n) rows.push_back({cell(x, y, z), cell(x + 1, y, z)});
+        if (y + 1 < n) rows.push_back({cell(x, y, z), cell(x, y + 1, z)});
+        if (z + 1 < n) rows.push_back({cell(x, y, z), cell(x, y, z + 1)});
+      }
+    }
+  }
+  const Pattern grid = make_pattern(std::vector<int>(n * n * n, 1), rows);
+  const Piece piece = piece_of(sg::graph::adjacency(grid), grid.dim, first(n * n * n));
+  const Separation side = sg::order::level_separation(piece, sg::order::prices(piece, n * n));
+  // x + y + z = 12, 3 (n - 1) / 2: 61 of 9 x 9 cells have room for z.
+  CHECK(separator_weight(piece, side) == 61);
+}
+
 TEST_CASE("a separator parts a wide graph in two, the same each time", "[dissect]") {
   Random random(2);
   for (int trial = 0; trial < 10; ++trial) {
@@ -355,6 +457,35 @@ TEST_CASE("a part's greedy pass is exact beyond its budget, too", "[dissect]") {
   }
   const auto found = sg::order::greedy_fill_of_part(sg::graph::adjacency(wide), wide.dim, 144);
   CHECK(found.ec == sg::elim::elimination_complexity(wide, found.order));
+}
+
+TEST_CASE("a part's greedy pass is given up above its limit alone", "[dissect]") {
+  Random random(10);
+  const Pattern pattern = odd_grid(random, 14);
+  const Adjacency graph = sg::graph::adjacency(pattern);
+  const auto whole = sg::order::greedy_fill_of_part(graph, pattern.dim, 196);
+  CHECK(sg::order::greedy_fill_of_part(graph, pattern.dim, 196, whole.ec).order == whole.order);
+  CHECK(sg::order::greedy_fill_of_part(graph, pattern.dim, 196, whole.ec - 1).order.empty());
+}
+
+TEST_CASE("where minimum fill is better than dissection, dissection has it", "[dissect]") {
+  // A street of ladders: narrow, so that the greedy order of the whole is hard to beat.
+  Random random(11);
+  constexpr Index length = 400, width = 3;
+  std::vector<std::vector<Index>> rows;
+  for (Index x = 0; x < length; ++x) {
+    for (Index y = 0; y < width; ++y) {
+      if (x + 1 < length) rows.push_back({x * width + y, (x + 1) * width + y});
+      if (y + 1 < width) rows.push_back({x * width + y, x * width + y + 1});
+    }
+    if (x % 7 == 0 && x + 20 < length)
+      rows.push_back({x * width, (x + draw(random, 5, 20)) * width});
+  }
+  const Pattern street = make_pattern(std::vector<int>(length * width, 3), rows);
+  const Adjacency graph = sg::graph::adjacency(street);
+  const auto greedy = sg::order::greedy_fill_of_part(graph, street.dim, length * width);
+  const auto found = sg::order::nested_dissection(graph, street.dim, length * width, 0);
+  CHECK(found.ec <= greedy.ec);
 }
 
 TEST_CASE("dissection orders any graph, and a wide one better than others do", "[dissect]") {

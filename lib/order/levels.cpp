@@ -1,0 +1,127 @@
+#include "lib/order/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace sg::order {
+namespace {
+
+struct Search {
+  std::vector<Index> sequence;  // as they are met
+  std::vector<Index> distance;  // of every vertex
+};
+
+Search breadth_first(const Piece& piece, Index root) {
+  Search result{{root}, std::vector<Index>(static_cast<std::size_t>(piece.size()), -1)};
+  result.distance[root] = 0;
+  for (std::size_t at = 0; at < result.sequence.size(); ++at) {
+    const Index v = result.sequence[at];
+    for (const Index u : piece.inside[v]) {
+      if (result.distance[u] >= 0) continue;
+      result.distance[u] = result.distance[v] + 1;
+      result.sequence.push_back(u);
+    }
+  }
+  return result;
+}
+
+// Of what is farthest from where the search began, one with the fewest neighbours.
+Index far_end(const Piece& piece, const Search& search) {
+  const Index farthest = search.distance[search.sequence.back()];
+  Index best = search.sequence.back();
+  for (auto v = search.sequence.rbegin();
+       v != search.sequence.rend() && search.distance[*v] == farthest; ++v) {
+    if (piece.inside[*v].size() < piece.inside[best].size()) best = *v;
+  }
+  return best;
+}
+
+// What has been met is side 0, but for the separator: what of it has neighbours yet to come, which are side 1.
+struct Sweep {
+  const Piece& piece;
+  Sizes sizes;
+  std::vector<Index> waits;  // of a vertex: neighbours yet to come
+  std::vector<char> met;
+  std::array<std::vector<Index>, 2> meets;  // of every outer vertex: neighbours on that side
+};
+
+Sweep sweep(const Piece& piece) {
+  Sweep result{piece, {}, {}, {}, {}};
+  result.met.assign(static_cast<std::size_t>(piece.size()), false);
+  for (auto& meets : result.meets) meets.assign(piece.outer_weight.size(), 0);
+  for (Index v = 0; v < piece.size(); ++v) {
+    result.waits.push_back(static_cast<Index>(piece.inside[v].size()));
+    result.sizes.side[1] += piece.inner_weight[v];
+    for (const Index b : piece.around[v]) ++result.meets[1][b];
+  }
+  for (const int weight : piece.outer_weight) result.sizes.outer[1] += weight;
+  return result;
+}
+
+void leave_separator(Sweep& s, Index v) {
+  s.sizes.separator -= s.piece.inner_weight[v];
+  s.sizes.side[0] += s.piece.inner_weight[v];
+  for (const Index b : s.piece.around[v]) {
+    if (s.meets[0][b]++ == 0) s.sizes.outer[0] += s.piece.outer_weight[b];
+  }
+}
+
+void meet(Sweep& s, Index v) {
+  s.met[v] = true;
+  s.sizes.side[1] -= s.piece.inner_weight[v];
+  s.sizes.separator += s.piece.inner_weight[v];
+  for (const Index b : s.piece.around[v]) {
+    if (--s.meets[1][b] == 0) s.sizes.outer[1] -= s.piece.outer_weight[b];
+  }
+  if (s.waits[v] == 0) leave_separator(s, v);
+  for (const Index u : s.piece.inside[v]) {
+    if (--s.waits[u] == 0 && s.met[u]) leave_separator(s, u);
+  }
+}
+
+struct Cut {
+  double price = std::numeric_limits<double>::infinity();
+  const std::vector<Index>* sequence = nullptr;
+  std::size_t length = 0;  // of its cheapest prefix
+};
+
+void try_prefixes(const Sweep& start, const Prices& prices, const std::vector<Index>& sequence,
+                  Cut& best) {
+  Sweep s = start;
+  for (std::size_t k = 0; k < sequence.size(); ++k) {
+    meet(s, sequence[k]);
+    const double cost = price(prices, s.sizes);
+    if (cost < best.price) best = {cost, &sequence, k + 1};
+  }
+}
+
+Separation separation(const Piece& piece, const Cut& cut) {
+  Separation side(static_cast<std::size_t>(piece.size()), 1);
+  for (std::size_t k = 0; k < cut.length; ++k) side[(*cut.sequence)[k]] = 0;
+  for (std::size_t k = 0; k < cut.length; ++k) {
+    const Index v = (*cut.sequence)[k];
+    const auto others = piece.inside[v];
+    if (std::ranges::any_of(others, [&](Index u) { return side[u] == 1; })) side[v] = in_separator;
+  }
+  return side;
+}
+
+}  // namespace
+
+Separation level_separation(const Piece& piece, const Prices& prices) {
+  Search from = breadth_first(piece, 0);
+  Search to = breadth_first(piece, far_end(piece, from));
+  from = breadth_first(piece, far_end(piece, to));
+  // By the difference of the distances from both ends, ties as the first search met them.
+  std::vector<Index> between = from.sequence;
+  std::ranges::stable_sort(between, {}, [&](Index v) { return from.distance[v] - to.distance[v]; });
+  const Sweep start = sweep(piece);
+  Cut best;
+  for (const std::vector<Index>* sequence : {&from.sequence, &to.sequence, &between}) {
+    try_prefixes(start, prices, *sequence, best);
+  }
+  return best.sequence ? separation(piece, best) : Separation{};
+}
+
+}  // namespace sg::order
