@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 #include "lib/order/dissect.h"
@@ -77,17 +78,31 @@ graph::Order reordered(const Region& region) {
   return order;
 }
 
+// Of a clique: with the variables first that need not meet all others, so that those after them meet fewer.
+graph::Order slimmed(const Region& region) {
+  graph::Order order = reordered(region);
+  if (!order.empty()) return order;
+  const auto inner = static_cast<Index>(region.inside.size());
+  const graph::Adjacency graph = part_graph(region);
+  if (is_clique(graph, inner)) return {};
+  const auto joined = static_cast<std::size_t>(graph.size()) - 1;
+  order.resize(static_cast<std::size_t>(graph.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_partition(order.begin(), order.begin() + inner,
+                                [&](Index v) { return graph[v].size() < joined; });
+  return order;
+}
+
 bool stopped(const PolishOptions& options, double seconds) {
   return options.stop && options.stop(seconds);
 }
 
-// The order after a sweep.
-graph::Order swept(const Elimination& elimination, Index size, const std::vector<bool>& left_out,
-                   const PolishOptions& options) {
-  const std::vector<Region> regions = cut(elimination, size, left_out);
+// The order after every region has had its turn.
+graph::Order swept(const Elimination& elimination, const std::vector<Region>& regions,
+                   graph::Order (*better)(const Region&), const PolishOptions& options) {
   std::vector<graph::Order> orders(regions.size());
   tbb::parallel_for(std::size_t{0}, regions.size(), [&](std::size_t k) {
-    if (!stopped(options, 0)) orders[k] = reordered(regions[k]);
+    if (!stopped(options, 0)) orders[k] = better(regions[k]);
   });
   return recut(elimination, regions, orders);
 }
@@ -131,7 +146,10 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
     const double scale = scales[static_cast<std::size_t>(round) % scales.size()];
     for (const Index least : sizes) {
       const auto size = static_cast<Index>(scale * least);
-      if (!sweep([&](const auto& out) { return swept(best, size, out, options); })) break;
+      const auto by_regions = [&](const auto& out) {
+        return swept(best, cut(best, size, out), reordered, options);
+      };
+      if (!sweep(by_regions)) break;
     }
     elim::Wide last = 0;
     for (int k = 0; k < exchanges_a_round && best.ec != last; ++k) {
@@ -141,6 +159,13 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
     const double after = elim::to_double(best.ec);
     idle = after > (1 - least_gain) * before ? idle + 1 : 0;
     before = after;
+  }
+  const auto by_cliques = [&](const auto& out) {
+    return swept(best, cliques(best, out), slimmed, options);
+  };
+  for (elim::Wide last = 0; best.ec != last;) {
+    last = best.ec;
+    if (!sweep(by_cliques)) break;
   }
   // A postorder may have put some of `last` before others.
   std::ranges::stable_partition(best.order, [&](Index j) { return !is_last[j]; });

@@ -7,11 +7,12 @@
 // within the next. Then adjacent cliques of the Bayes tree are exchanged where the parent had better go first, which a
 // greedy order does not see; rounds go on while they gain.
 //
-// Deterministic. Time: a sweep takes about what wmf takes of the whole, or less.
+// At last what fill no triangulation needs is taken back: where the edges that a clique's frontal variables must have, those
+// of the graph and those within the separators below it, do not join all of it, its own order is at fault. Once every clique
+// is joined by such edges the triangulation is minimal (Rose, Tarjan, Lueker 1976; Blair, Heggernes, Telle, A practical
+// algorithm for making filled graphs minimal, 2001). Less than a hundredth of the public graphs' fill is of that kind.
 //
-// What is not here: taking fill back that no triangulation needs (Blair, Heggernes, Telle, A practical algorithm for making
-// filled graphs minimal, 2001). Of the public graphs' fill under AMD, COLAMD and minimum fill less than a hundredth is of that
-// kind, as it is after polishing.
+// Deterministic. Time: a sweep takes about what wmf takes of the whole, or less.
 #pragma once
 
 #include <functional>

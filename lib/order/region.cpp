@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <initializer_list>
 #include <numeric>
 #include <queue>
 #include <span>
@@ -181,26 +182,34 @@ struct Cliques {
   graph::Lists<> frontals, separators, children;
 };
 
-// A clique's frontal variables and those of its child, with what they meet.
-Region pair_of(const Elimination& e, const Cliques& cliques, Index parent, Index child) {
-  Region pair{cliques.tree.top[parent], {}, {}, 0};
-  for (const Index c : {child, parent}) {
+Cliques cliques_of(const Elimination& e) {
+  Cliques result{elim::bayes_tree({e.pattern.dim, e.parent, e.count}), {}, {}, {}};
+  result.frontals = elim::clique_frontals(result.tree);
+  result.separators = elim::clique_separators(e.pattern, result.tree);
+  result.children = graph::grouped(result.tree.parent, result.tree.cliques());
+  return result;
+}
+
+// The frontal variables of one clique, or of one and its child, with what they meet. The first has the top.
+Region region_of(const Elimination& e, const Cliques& cliques, std::initializer_list<Index> these) {
+  Region region{cliques.tree.top[*these.begin()], {}, {}, 0};
+  for (const Index c : these) {
     const auto frontals = cliques.frontals[c];
-    pair.inside.insert(pair.inside.end(), frontals.begin(), frontals.end());
+    region.inside.insert(region.inside.end(), frontals.begin(), frontals.end());
   }
-  std::ranges::sort(pair.inside);
-  graph::Lists<>& rows = pair.pattern.rows;
-  for (const Index k : pair.inside) add_own_rows(e, k, rows);
-  for (const Index c : {child, parent}) {
+  std::ranges::sort(region.inside);
+  graph::Lists<>& rows = region.pattern.rows;
+  for (const Index k : region.inside) add_own_rows(e, k, rows);
+  for (const Index c : these) {
     for (const Index below : cliques.children[c]) {
-      if (below == child) continue;
+      if (std::ranges::find(these, below) != these.end()) continue;
       rows.items.insert(rows.items.end(), cliques.separators[below].begin(),
                         cliques.separators[below].end());
       end_row(rows);
     }
   }
-  name_positions(e, pair);
-  return pair;
+  name_positions(e, region);
+  return region;
 }
 
 // Those of the parent first, as they are among themselves; then the child's, then what is around.
@@ -216,14 +225,20 @@ graph::Order exchanged(const Region& pair, std::span<const Index> parent) {
 
 }  // namespace
 
+std::vector<Region> cliques(const Elimination& e, const std::vector<bool>& left_out) {
+  const Cliques all = cliques_of(e);
+  std::vector<Region> regions;
+  for (Index c = 0; c < all.tree.cliques(); ++c) {
+    if (!left_out[all.tree.top[c]]) regions.push_back(region_of(e, all, {c}));
+  }
+  return regions;
+}
+
 std::vector<Region> exchanges(const Elimination& e, const std::vector<bool>& left_out,
                               std::vector<graph::Order>& orders) {
   constexpr std::size_t most_children = 64;  // beyond, every pair would look at all of them
-  Cliques cliques{elim::bayes_tree({e.pattern.dim, e.parent, e.count}), {}, {}, {}};
+  const Cliques cliques = cliques_of(e);
   const elim::BayesTree& tree = cliques.tree;
-  cliques.frontals = elim::clique_frontals(tree);
-  cliques.separators = elim::clique_separators(e.pattern, tree);
-  cliques.children = graph::grouped(tree.parent, tree.cliques());
   std::vector<Region> regions;
   std::vector<bool> paired(tree.cliques(), false);
   for (Index c = 0; c < tree.cliques(); ++c) {
@@ -235,7 +250,7 @@ std::vector<Region> exchanges(const Elimination& e, const std::vector<bool>& lef
     elim::Wide gain = 0;
     for (const Index child : cliques.children[c]) {
       if (paired[child] || cliques.children[c].size() > most_children) continue;
-      Region pair = pair_of(e, cliques, c, child);
+      Region pair = region_of(e, cliques, {c, child});
       graph::Order other = exchanged(pair, frontals);
       const elim::Wide ec = region_ec(pair, other);
       if (ec + gain >= pair.ec) continue;

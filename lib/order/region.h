@@ -42,9 +42,12 @@ std::vector<Region> cut(const Elimination& elimination, Index size,
 graph::Order recut(const Elimination& elimination, const std::vector<Region>& regions,
                    const std::vector<graph::Order>& orders);
 
-// The elimination cut into its Bayes tree's cliques, but for pairs of a clique and one of its children that make one region:
+// The elimination cut into its Bayes tree's cliques, for variables that are not left out, as in cut().
+std::vector<Region> cliques(const Elimination& elimination, const std::vector<bool>& left_out);
+
+// The same, but for pairs of a clique and one of its children that make one region:
 // pairs that would cost less with the parent's variables before the child's. `orders` has that order of each pair, and
-// nothing for cliques alone. For variables that are not left out, as in cut().
+// nothing for cliques alone, which have no pattern here.
 std::vector<Region> exchanges(const Elimination& elimination, const std::vector<bool>& left_out,
                               std::vector<graph::Order>& orders);
 
