@@ -10,7 +10,7 @@ setup() {
   sg-isam2 -m best --order-budget 0t --chi2 -f ec_bt,chi2 --no-header city.g2o > best.tsv
   sg-isam2 -m colamd --chi2 -f ec_bt,chi2 --no-header city.g2o > colamd.tsv
   [ "$(wc -l < best.tsv)" = 60 ]
-  near "$(tail -n 1 best.tsv | cut -f 2)" "$(tail -n 1 colamd.tsv | cut -f 2)" 1e-3
+  near "$(tail -n 1 best.tsv | cut -f 2)" "$(tail -n 1 colamd.tsv | cut -f 2)" 5e-3  # relinearization has a threshold
   sg-isam2 -m best --order-budget 16t -f ec_bt --no-header city.g2o | cmp - <(sg-isam2 -m best --order-budget 16t -f ec_bt --no-header city.g2o)
 }
 
