@@ -17,7 +17,7 @@ constexpr Index small_piece = 300;    // not parted
 constexpr double largest_part = 0.9;  // of a piece; a separator that leaves more parts nothing
 // Up to so many times what dissection of a piece costs, minimum fill may win the piece around it. It does not where that is
 // more than so much a list entry.
-constexpr double near = 1.1, narrow = 30'000;
+constexpr double near = 1.05, narrow = 30'000;
 
 struct Graph {
   const graph::Adjacency& adjacency;
