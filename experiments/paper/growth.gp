@@ -5,6 +5,7 @@ file(policy) = out.'/'.policy.r.'.trace.tsv'
 whole = out.'/full.trace.tsv'
 set multiplot layout 1,2
 set xlabel 'step'
+set key bottom right  # curves rise to the top
 set logscale y
 set format y '10^{%T}'
 set ylabel 'factors'
