@@ -16,6 +16,7 @@ lint_packages  := clang-format clang-tidy python3 mandoc git
 bench_packages := libbenchmark-dev
 fuzz_packages  := clang libclang-rt-14-dev
 plot_packages  := gnuplot-nox graphviz
+blas_packages  := libopenblas0-serial
 deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
@@ -108,7 +109,7 @@ tsan: build/packages/build build/packages/test ## run what is parallel under the
 paper: build build/packages/plot ## reproduce every figure and table of the paper, into out/paper
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/paper OUT=$(CURDIR)/out/paper
 
-orderings: build build/packages/plot ## every ordering on every graph, into out/orderings (GRAPHS="..." adds yours)
+orderings: build build/packages/plot build/packages/blas ## every ordering on every graph, into out/orderings (GRAPHS="..." adds yours)
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/orderings OUT=$(CURDIR)/out/orderings \
 	  GRAPHS="$(abspath $(GRAPHS))"
 

@@ -108,7 +108,7 @@ END {
   print "\n## Where fewer operations are not less time\n"
   print "Processor seconds of one elimination on one thread, five rounds in which orders took turns."
   disagreements("By the Bayes tree (`sg-solve --time`)", tree)
-  disagreements("By CHOLMOD (`--backend cholmod`, the BLAS of the machine on one thread)", cholmod)
+  disagreements("By CHOLMOD (`--backend cholmod`, one thread, BLAS: " blas ")", cholmod)
   if (!measured) print "\nBy GTSAM: not measured; it is in no package of the distribution."
   section("Elimination complexity", "By that of colamd.", ec, "colamd")
   section("Time to order", "CPU time, by that of amd.", order, "amd")
