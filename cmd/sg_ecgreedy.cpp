@@ -1,6 +1,7 @@
 // sg-ecgreedy: keep the candidates that tell most of where the poses are for what they cost to eliminate.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "cmd/common/interrupt.h"
 #include "cmd/common/method.h"
@@ -8,7 +9,6 @@
 #include "cmd/common/prune_options.h"
 #include "cmd/common/table.h"
 #include "cmd/ecgreedy/budget.h"
-#include "lib/factor/initialize.h"
 #include "lib/prune/ecgreedy.h"
 #include "lib/prune/exchange.h"
 #include "lib/prune/part.h"
@@ -174,13 +174,12 @@ std::vector<prune::Move> moves_of(const Options& options, Subject& subject,
       throw text::computation_error(graph.file + ": too badly scaled for spanning trees");
     return moves;
   }
-  const factor::Problem problem = factor::make_problem(graph);
-  const factor::Values values = factor::start_values(problem);
-  subject.evidence = prune::measured_evidence(problem, values);
+  ecgreedy::Linearized whole = ecgreedy::linearized(graph);
+  subject.evidence = std::move(whole.evidence);
   set_budget(options, subject, greedy);
   std::vector<prune::Move> moves = prune::ecgreedy(subject.choice, subject.evidence, greedy);
   if (!moves.empty()) return moves;
-  throw score::singular_error(problem, values);
+  throw score::singular_error(whole.problem, whole.values);
 }
 
 void print_trace(const Options& options, const Graph& graph, std::span<const prune::Move> moves) {

@@ -5,14 +5,12 @@
 #include "cmd/ecgreedy/budget.h"
 #include "cmd/kf/changes.h"
 #include "formats/applied.h"
-#include "lib/factor/initialize.h"
 #include "lib/order/order.h"
 #include "lib/prune/decimate.h"
 #include "lib/prune/ecgreedy.h"
 #include "lib/prune/keyframes.h"
 #include "lib/prune/sample.h"
 #include "lib/prune/tgreedy.h"
-#include "lib/score/covariance.h"
 #include "python/bind.h"
 
 namespace sg::python {
@@ -91,14 +89,7 @@ SharedGraph ec_greedy(const Graph& graph, std::optional<double> ec, std::optiona
     options.order = [&](const graph::GraphPattern& variables) {
       return chosen_order({method, {}}, 1, graph, variables);
     };
-    const factor::Problem problem = factor::make_problem(graph);
-    const factor::Values values = factor::start_values(problem);
-    const prune::Evidence evidence = prune::measured_evidence(problem, values);
-    const prune::Choice choice{graph, from.poses, from.candidates, min_obs};
-    std::vector<prune::Move> moves = prune::ecgreedy(choice, evidence, options);
-    if (moves.empty()) throw score::singular_error(problem, values);
-    if (options.ec) moves.resize(prune::moves_within(choice, moves, *options.ec, options));
-    return prune::kept_by(from.candidates, ecgreedy::with_free(choice, evidence, moves, options));
+    return ecgreedy::kept_within({graph, from.poses, from.candidates, min_obs}, options);
   });
 }
 

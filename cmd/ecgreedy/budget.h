@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/factor/problem.h"
 #include "lib/prune/ecgreedy.h"
 
 namespace sg::ecgreedy {
@@ -16,5 +17,16 @@ elim::Wide part_of_ec(const Graph& graph, double part, const prune::EcGreedyOpti
 std::vector<prune::Move> with_free(const prune::Choice& choice, const prune::Evidence& evidence,
                                    std::span<const prune::Move> moves,
                                    const prune::EcGreedyOptions& greedy);
+
+// What the edges tell at the start of a solve, linearized there.
+struct Linearized {
+  factor::Problem problem;
+  factor::Values values;
+  prune::Evidence evidence;
+};
+Linearized linearized(const Graph& graph);
+
+// Which candidates a call with this budget keeps, without exchange. Throws score::singular_error where the whole graph is.
+std::vector<bool> kept_within(const prune::Choice& choice, const prune::EcGreedyOptions& greedy);
 
 }  // namespace sg::ecgreedy

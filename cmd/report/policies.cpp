@@ -5,12 +5,10 @@
 #include "cmd/ecgreedy/budget.h"
 #include "cmd/kf/changes.h"
 #include "formats/applied.h"
-#include "lib/factor/initialize.h"
 #include "lib/prune/covisible.h"
 #include "lib/prune/decimate.h"
 #include "lib/prune/sample.h"
 #include "lib/prune/tgreedy.h"
-#include "lib/score/covariance.h"
 #include "lib/text/words.h"
 
 namespace sg::report {
@@ -88,11 +86,6 @@ std::optional<Graph> by_trees(const Graph& graph, const Pruning& pruning) {
 
 std::optional<Graph> by_accuracy(const Graph& graph, const Pruning& pruning, double part) {
   return with_kept(graph, pruning, [&](const auto& poses, const auto& candidates) {
-    using Kept = std::optional<std::vector<bool>>;
-    const factor::Problem problem = factor::make_problem(graph);
-    const factor::Values values = factor::start_values(problem);
-    const prune::Evidence evidence = prune::measured_evidence(problem, values);
-    const prune::Choice choice{graph, poses, candidates, pruning.min_obs};
     const cmd::MethodOptions method{{"wmf"}};
     bool whole = true;
     prune::EcGreedyOptions greedy;
@@ -102,12 +95,9 @@ std::optional<Graph> by_accuracy(const Graph& graph, const Pruning& pruning, dou
     };
     greedy.go_on = [&](Index) { return whole = pruning.go_on(); };
     greedy.ec = greedy.start_ec = ecgreedy::part_of_ec(graph, part, greedy);
-    const std::vector<prune::Move> moves = prune::ecgreedy(choice, evidence, greedy);
-    if (!whole) return Kept();
-    if (moves.empty()) throw score::singular_error(problem, values);
-    const auto within =
-        std::span(moves).first(prune::moves_within(choice, moves, *greedy.ec, greedy));
-    return Kept(prune::kept_by(candidates, ecgreedy::with_free(choice, evidence, within, greedy)));
+    std::vector<bool> kept =
+        ecgreedy::kept_within({graph, poses, candidates, pruning.min_obs}, greedy);
+    return whole ? std::optional(std::move(kept)) : std::nullopt;
   });
 }
 
