@@ -6,4 +6,8 @@ namespace sg::cmd {
 
 double processor_seconds();
 
+// The same of this thread alone, for work that no other has a part in. Under a limit of processor time (ulimit -t, RLIMIT_CPU) Linux
+// counts a process's time in ticks of some milliseconds, a thread's as exactly as ever.
+double thread_seconds();
+
 }  // namespace sg::cmd

@@ -64,9 +64,9 @@ std::vector<std::function<Graph()>> worlds() {
 double time_of(solve::Elimination& elimination, const factor::LinearSystem& system) {
   std::vector<double> times;
   for (double sum = 0; times.size() < runs_each || sum < seconds_each; sum += times.back()) {
-    const double begin = cmd::processor_seconds();
+    const double begin = cmd::thread_seconds();
     solve::eliminate(elimination, system);
-    times.push_back(cmd::processor_seconds() - begin);
+    times.push_back(cmd::thread_seconds() - begin);
   }
   return median(std::move(times));
 }

@@ -23,14 +23,17 @@ Timing timed(const TimingOptions& options, const factor::Problem& problem,
   const auto start = std::chrono::steady_clock::now();
   const auto solver = solve::find_backend(options.backend).make(system, order, options.threads);
   const double plan = cmd::seconds_since(start);
+  // CHOLMOD's BLAS may have threads of its own.
+  const bool alone = options.threads == 1 && options.backend == solve::backends().front().name;
+  const auto clock = alone ? cmd::thread_seconds : cmd::processor_seconds;
   std::vector<double> times, processor;
   for (int k = 0; k < options.runs && (k == 0 || !cmd::interrupted()); ++k) {
     cmd::progress(k);
-    const double before = cmd::processor_seconds();
+    const double before = clock();
     const auto begin = std::chrono::steady_clock::now();
     if (!solver.eliminate(system, {})) throw solve::singular_error(problem, values, system);
     times.push_back(cmd::seconds_since(begin));
-    processor.push_back(cmd::processor_seconds() - before);
+    processor.push_back(clock() - before);
   }
   return {problem.graph->file,
           label,
