@@ -97,7 +97,8 @@ fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 secon
 	@$(call build,fuzzers)
 	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
 	@$(MAKE) --no-print-directory build PRESET=release
-	@tests/fuzz/calls build/release/bin $(or $(FUZZ_SECONDS),60)
+	@$(CXX) -std=c++20 -O1 -shared -fPIC tests/prefork.cpp -o build/release/prefork.so
+	@PREFORK_LIBRARY=$(CURDIR)/build/release/prefork.so tests/fuzz/calls build/release/bin $(or $(FUZZ_SECONDS),60)
 
 tsan: PRESET := tsan
 tsan: build/packages/build build/packages/test ## run what is parallel under the thread sanitizer
