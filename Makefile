@@ -92,7 +92,7 @@ bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OP
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
 fuzz: PRESET := fuzz
-fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers, then the calls of all commands (FUZZ_SECONDS=60)
+fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers, then the calls of every command (FUZZ_SECONDS=60)
 	@$(call configure,$(commands_alone))
 	@$(call build,fuzzers)
 	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
