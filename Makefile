@@ -20,7 +20,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check faults python mutants install uninstall deb bench fuzz tsan paper orderings outliers front regimes budget starts marginalize sweep scale lint format clean picture
+.PHONY: help deps build demo check faults python mutants install uninstall deb bare bench fuzz tsan paper orderings outliers front regimes budget starts marginalize sweep scale lint format clean picture
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -82,6 +82,9 @@ deb: build python build/packages/deb ## make Debian packages, and prove that the
 	@rm -rf $(BUILD)/packages
 	@cd $(BUILD) && cpack -G DEB >/dev/null
 	@tests/install/deb $(BUILD)/packages
+
+bare: deb ## try these packages on a bare Debian 12 (root, debootstrap, a network)
+	@tests/install/bare $(BUILD)/packages
 
 picture: build ## draw the picture of the README
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -f experiments/demo/Makefile picture

@@ -120,6 +120,7 @@ int serve(int, char**, char** environment) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" [[gnu::visibility("default")]] int __libc_start_main(Main main, int count, char** words,
                                                                 void (*init)(), void (*fini)(),
                                                                 void (*loader)(), void* stack) {

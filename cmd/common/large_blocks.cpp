@@ -14,12 +14,11 @@ constexpr std::size_t large_page = std::size_t{1} << 21;
 
 // For the pages that the block lies in, with what else lies there: it is a wish.
 void ask_for_large_pages(void* block, std::size_t bytes) {
-  const auto begin = reinterpret_cast<std::uintptr_t>(block) & ~(large_page - 1);
-  const auto end =
-      (reinterpret_cast<std::uintptr_t>(block) + bytes + large_page - 1) & ~(large_page - 1);
-  const int before = errno;
-  ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-  errno = before;
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(block) % large_page;
+  const std::size_t pages = (before + bytes + large_page - 1) / large_page;
+  const int error = errno;
+  ::madvise(static_cast<char*>(block) - before, pages * large_page, MADV_HUGEPAGE);
+  errno = error;
 }
 
 }  // namespace
