@@ -21,7 +21,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check faults python mutants install uninstall deb bench fuzz tsan paper orderings outliers front regimes budget starts marginalize sweep scale lint format clean picture
+.PHONY: help deps build demo check faults python mutants install uninstall deb bare bench fuzz tsan paper orderings outliers front regimes budget starts marginalize sweep scale lint format clean picture
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -84,6 +84,9 @@ deb: build python build/packages/deb ## make Debian packages, and prove that the
 	@cd $(BUILD) && cpack -G DEB >/dev/null
 	@tests/install/deb $(BUILD)/packages
 
+bare: deb ## try these packages on a bare Debian 12 (root, debootstrap, a network)
+	@tests/install/bare $(BUILD)/packages
+
 picture: build ## draw the picture of the README
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -f experiments/demo/Makefile picture
 
@@ -93,12 +96,13 @@ bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OP
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
 fuzz: PRESET := fuzz
-fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers, then the calls of all commands (FUZZ_SECONDS=60)
+fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers, then the calls of every command (FUZZ_SECONDS=60)
 	@$(call configure,$(commands_alone))
 	@$(call build,fuzzers)
 	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
 	@$(MAKE) --no-print-directory build PRESET=release
-	@tests/fuzz/calls build/release/bin $(or $(FUZZ_SECONDS),60)
+	@$(CXX) -std=c++20 -O1 -shared -fPIC tests/prefork.cpp -o build/release/prefork.so
+	@PREFORK_LIBRARY=$(CURDIR)/build/release/prefork.so tests/fuzz/calls build/release/bin $(or $(FUZZ_SECONDS),60)
 
 tsan: PRESET := tsan
 tsan: build/packages/build build/packages/test ## run what is parallel under the thread sanitizer

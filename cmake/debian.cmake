@@ -34,6 +34,16 @@ License: BSD-3-clause
   if(EXISTS ${usr}/share/zsh/site-functions)
     file(RENAME ${usr}/share/zsh/site-functions ${usr}/share/zsh/vendor-completions)
   endif()
+  # Where pkg-config of Debian looks for what is of one architecture: one folder further down.
+  if(EXISTS ${usr}/lib/pkgconfig)
+    execute_process(COMMAND dpkg-architecture -qDEB_HOST_MULTIARCH OUTPUT_VARIABLE architecture OUTPUT_STRIP_TRAILING_WHITESPACE
+      COMMAND_ERROR_IS_FATAL ANY)
+    file(MAKE_DIRECTORY ${usr}/lib/${architecture})
+    file(RENAME ${usr}/lib/pkgconfig ${usr}/lib/${architecture}/pkgconfig)
+    file(READ ${usr}/lib/${architecture}/pkgconfig/sgtools.pc pc)
+    string(REPLACE "{pcfiledir}/" "{pcfiledir}/../" pc "${pc}")
+    file(WRITE ${usr}/lib/${architecture}/pkgconfig/sgtools.pc "${pc}")
+  endif()
   file(GLOB_RECURSE libraries ${usr}/lib/*.a)
   foreach(library ${libraries})
     execute_process(COMMAND strip --strip-debug --remove-section=.comment --remove-section=.note ${library}

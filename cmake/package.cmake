@@ -1,6 +1,6 @@
 # Debian packages of what install.cmake installs: sgtools (commands, man pages, completions), libsgtools-dev (the library
-# for those who build on it) and, where it is built, python3-sgtools. `make deb` makes them; their maintainer is that of Debian's own tools, DEBFULLNAME and
-# DEBEMAIL.
+# for those who build on it) and, where it is built, python3-sgtools. `make deb` makes them; their maintainer is that of
+# Debian's own tools, DEBFULLNAME and DEBEMAIL.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "the sgtools authors")
 set(name $ENV{DEBFULLNAME})
@@ -39,11 +39,12 @@ if(SGTOOLS_PYTHON)
   set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_NAME python3-sgtools)
   set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/prerm)
   math(EXPR next "${Python_VERSION_MINOR} + 1")  # the module is of one minor version
   set(CPACK_DEBIAN_PYTHON3-SGTOOLS_PACKAGE_DEPENDS
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
   set(CPACK_COMPONENT_PYTHON3-SGTOOLS_DESCRIPTION "The library of sgtools in Python, with numpy in and out:
-graphs from files or from arrays; their orders, elimination complexity and Bayes
-tree; pruning, solving, scoring and covariances.")
+graphs from files or from arrays; their orders, elimination complexity and
+Bayes tree; pruning, solving, scoring and covariances.")
 endif()
 include(CPack)

@@ -1,4 +1,6 @@
 // sg-plot: pictures of a graph, of its factor, of its Bayes tree, of a table.
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -6,6 +8,7 @@
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
+#include "cmd/common/read_thinly.h"
 #include "cmd/common/table.h"
 #include "cmd/plot/curves.h"
 #include "cmd/plot/heat.h"
@@ -143,20 +146,36 @@ std::string error_in_words(const plot::Overlay& overlay) {
          overlay.name;
 }
 
-void draw_map(cairo_t* page, const Options& options, const Graph& graph,
-              const graph::GraphPattern& variables) {
-  const auto [name, order] = cmd::named_order(options.method, graph, variables);
-  const plot::View view = seen_from(options, graph);
+// What is left of an elimination for a map. (The pattern is as large as the graph, and not kept.)
+struct Eliminated {
+  std::string title;
+  graph::Order order;
+  plot::Costs costs;  // where they are asked for
+};
+
+Eliminated eliminated(const Options& options, const Graph& graph) {
+  const auto variables = graph::graph_pattern(graph);
+  auto [name, order] = cmd::named_order(options.method, graph, variables);
   if (options.cost) {
-    const plot::Costs costs = plot::costs(variables, order);
-    return plot::draw_cost_map(page, options.size, graph, view, costs,
-                               plot::cost_heading(graph, costs, name));
+    plot::Costs costs = plot::costs(variables, order);
+    return {name, std::move(order), std::move(costs)};
   }
-  plot::Heading heading{
-      plot::title(graph, elim::column_score(elim::symbolic(variables.pattern, order)).ec, name),
-      plot::unsolved_hint(graph)};
+  const elim::Wide ec = elim::column_score(elim::symbolic(variables.pattern, order)).ec;
+  return {plot::title(graph, ec, name), std::move(order), {}};
+}
+
+void draw_map(cairo_t* page, const Options& options, Graph& graph) {
+  const std::string hint = options.cost ? "" : plot::unsolved_hint(graph);
+  // Where estimates are not composed along edges nobody asks for their lines any more, and an order takes much.
+  if (!options.sigma && !graph.edges_only) graph.edge_line = std::vector<Offset>();
+  const Eliminated known = eliminated(options, graph);
+  const plot::View view = seen_from(options, graph);
+  if (options.cost)
+    return plot::draw_cost_map(page, options.size, graph, view, known.costs,
+                               plot::cost_heading(graph, known.costs, known.title));
+  plot::Heading heading{known.title, hint};
   if (options.sigma)
-    return plot::draw_sigma_map(page, options.size, graph, view, ellipses(graph, order, view),
+    return plot::draw_sigma_map(page, options.size, graph, view, ellipses(graph, known.order, view),
                                 heading);
   const std::optional<plot::Overlay> other = overlay(options, graph);
   if (other)
@@ -165,8 +184,8 @@ void draw_map(cairo_t* page, const Options& options, const Graph& graph,
                  other ? &*other : nullptr);
 }
 
-void draw_elimination(cairo_t* page, const Options& options, const Graph& graph,
-                      const graph::GraphPattern& variables) {
+void draw_elimination(cairo_t* page, const Options& options, const Graph& graph) {
+  const auto variables = graph::graph_pattern(graph);
   const auto [name, order] = cmd::named_order(options.method, graph, variables);
   const elim::Symbolic symbolic = elim::symbolic(variables.pattern, order);
   const elim::Score score = elim::column_score(symbolic);
@@ -224,15 +243,19 @@ void run(const cmd::Command& command, const Options& options) {
   if (options.inputs.paths.size() > 1)
     throw text::usage_error("a " + options.what + " is one graph's: give it one FILE");
   cmd::check(options.method);
-  const Graph graph = cmd::read(options.inputs, options.inputs.paths.front());
+#ifdef M_MMAP_THRESHOLD
+  // What is freed of a large graph on its way goes back at once: glibc would keep it for blocks that do not come.
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+  const cmd::Input input{options.inputs.paths.front(), options.inputs.options};
+  Graph graph = options.sigma ? cmd::read(input) : cmd::read_thinly(input);
   cmd::stage("draw");
   const std::string bytes =
       plot::picture(format, options.size.width, options.size.height, [&](cairo_t* page) {
-        const auto variables = graph::graph_pattern(graph);
         if (options.what == "map")
-          draw_map(page, options, graph, variables);
+          draw_map(page, options, graph);
         else
-          draw_elimination(page, options, graph, variables);
+          draw_elimination(page, options, graph);
       });
   write(options, bytes);
 }

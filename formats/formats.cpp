@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "formats/bal.h"
 #include "formats/g2o.h"
 #include "formats/isam.h"
 #include "formats/kitti.h"
+#include "formats/thin.h"
 #include "formats/toro.h"
 #include "formats/translate.h"
 #include "formats/tum.h"
 #include "lib/text/nearest.h"
+#include "lib/text/stream.h"
 #include "lib/text/words.h"
 
 namespace sg::formats {
@@ -104,6 +108,31 @@ void refuse_other_files(std::string_view text, const std::string& file) {
     throw text::input_error(file, 1, "this is binary data, not a graph's text");
 }
 
+Complaint complaint_of(const ReadOptions& options) {
+  return options.complaint ? options.complaint : [](const text::Error& error) { throw error; };
+}
+
+graph::Tags tags_of(const ReadOptions& options) {
+  graph::Tags tags = graph::builtin_tags();
+  for (const auto& spec : options.vertex_types) graph::teach_vertex(tags, spec);
+  for (const auto& spec : options.edge_types) graph::teach_edge(tags, spec);
+  for (const auto& tag : options.param_tags) graph::teach_params(tags, tag);
+  for (const auto& spec : options.aliases) graph::teach_alias(tags, spec);
+  return tags;
+}
+
+// Whether the first lines of a text are g2o's.
+bool begins_as_g2o(std::string_view block, const ReadOptions& options) {
+  if (block.starts_with("\xEF\xBB\xBF")) return false;  // a mark of another editor's
+  std::string_view lines = block.substr(0, 1U << 16);
+  lines = lines.substr(0, lines.rfind('\n') + 1);
+  if (lines.find('\0') != lines.npos || find_format(options, lines).to_g2o) return false;
+  const auto known = tags_of(options);
+  bool any = false;
+  scan_tags(lines, [&](std::string_view tag) { return !(any = known.find(tag) != nullptr); });
+  return any;
+}
+
 }  // namespace
 
 std::span<const ReadFormat> read_formats() {
@@ -136,13 +165,8 @@ Graph read_graph(const std::string& path, const ReadOptions& options) {
 }
 
 Graph read_graph_text(text::Text text, const std::string& file, const ReadOptions& options) {
-  const Complaint complaint =
-      options.complaint ? options.complaint : [](const text::Error& error) { throw error; };
-  graph::Tags tags = graph::builtin_tags();
-  for (const auto& spec : options.vertex_types) graph::teach_vertex(tags, spec);
-  for (const auto& spec : options.edge_types) graph::teach_edge(tags, spec);
-  for (const auto& tag : options.param_tags) graph::teach_params(tags, tag);
-  for (const auto& spec : options.aliases) graph::teach_alias(tags, spec);
+  const Complaint complaint = complaint_of(options);
+  graph::Tags tags = tags_of(options);
   refuse_other_files(text.view, file);
   const ReadFormat& format = find_format(options, text.view);
   if (format.to_g2o) {
@@ -152,6 +176,27 @@ Graph read_graph_text(text::Text text, const std::string& file, const ReadOption
   }
   Graph graph = parse_g2o(std::move(text), file, std::move(tags), complaint,
                           {options.skip_unknown, options.unknown_edge});
+  warn_of_left_out(graph, options.warning);
+  return graph;
+}
+
+Graph read_graph_thinly(const std::string& path, const ReadOptions& options, Source& source) {
+  const text::Stream stream = text::open_stream(path);
+  std::vector<char> room(4U << 20);
+  const std::string_view first = text::read_block(stream, room);
+  if (first.size() < room.size() || !begins_as_g2o(first, options)) {
+    text::Text text = text::read_rest(stream, first);
+    source = {find_format(options, text.view).name, text.view.size()};
+    return read_graph_text(std::move(text), stream.path, options);
+  }
+  source = {"g2o", 0};
+  const auto next_block = [&] {
+    const auto block = source.bytes == 0 ? first : text::read_block(stream, room);
+    source.bytes += block.size();
+    return block;
+  };
+  Graph graph = parse_g2o_thinly(next_block, stream.path, tags_of(options), complaint_of(options),
+                                 {options.skip_unknown, options.unknown_edge});
   warn_of_left_out(graph, options.warning);
   return graph;
 }

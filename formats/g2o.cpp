@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "formats/g2o_parser.h"
+#include "formats/thin.h"
 #include "lib/text/line.h"
 
 namespace sg::formats {
@@ -154,6 +155,30 @@ void parse_lines(Parser& parser) {
   }
 }
 
+// Whether the edge that is behind so many others is one whose line nobody will look at.
+bool goes(const Graph& graph, Index edges_before, const Thin& thin) {
+  return graph.edges() > edges_before && !graph.id.empty() && edges_before >= thin.first &&
+         edges_before % thin.every != 0;
+}
+
+// An empty line stays of a line that goes: those behind it have their numbers by it.
+void parse_thinly(Parser& parser, std::string_view lines, const Thin& thin, std::string& kept) {
+  while (!lines.empty()) {
+    const std::string_view line = text::next_line(lines);
+    const auto at = static_cast<Offset>(kept.size());
+    const Index edges = parser.graph.edges();
+    try {
+      parse_line(parser, at, line);
+    } catch (const text::BadLine& bad) {
+      parser.graph.text.view = kept;
+      parser.complain(at, bad.cause);
+    }
+    if (!goes(parser.graph, edges, thin)) kept += line;
+    kept += '\n';
+  }
+  parser.last_tag = {};  // it pointed there
+}
+
 // Address space for arrays that never move: pages are only touched as they fill.
 void reserve(Parser& parser) {
   const std::string_view text = parser.graph.text.view;
@@ -178,6 +203,30 @@ Graph parse_g2o(text::Text text, std::string file, graph::Tags tags, const Compl
   parser.graph.tags = std::move(tags);
   reserve(parser);
   parse_lines(parser);
+  resolve_ids(parser);
+  return std::move(parser.graph);
+}
+
+Graph parse_g2o_thinly(const std::function<std::string_view()>& next_block, std::string file,
+                       graph::Tags tags, const Complaint& complaint, const LeaveOut& leave_out,
+                       const Thin& thin) {
+  Parser parser(complaint, leave_out);
+  parser.graph.file = std::move(file);
+  parser.graph.tags = std::move(tags);
+  std::string kept, begun;  // a line whose end is yet to come
+  for (std::string_view block = next_block(); !block.empty(); block = next_block()) {
+    const std::size_t first = block.find('\n') + 1, last = block.rfind('\n') + 1;
+    if (first == 0) {
+      begun += block;
+      continue;
+    }
+    begun += block.substr(0, first);
+    parse_thinly(parser, begun, thin, kept);
+    parse_thinly(parser, block.substr(first, last - first), thin, kept);
+    begun = block.substr(last);
+  }
+  parse_thinly(parser, begun, thin, kept);
+  parser.graph.text = text::text_of(std::move(kept));
   resolve_ids(parser);
   return std::move(parser.graph);
 }

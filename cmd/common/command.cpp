@@ -8,9 +8,11 @@
 
 #include "cmd/common/complete.h"
 #include "cmd/common/help.h"
+#include "cmd/common/read_thinly.h"
 #include "cmd/common/shell.h"
 #include "formats/convert.h"
 #include "formats/reorder.h"
+#include "formats/thin.h"
 #include "lib/text/line.h"
 #include "lib/text/nearest.h"
 
@@ -198,10 +200,24 @@ std::string packed_ending(const std::string& path) {
   return packed ? path + ": nothing is written compressed; pipe it into a compressor" : "";
 }
 
-text::Text read_text(const Input& input) {
-  if (input.path == "-" && ::isatty(STDIN_FILENO))
+namespace {
+
+void begin_reading_graph(const std::string& path) {
+  if (path == "-" && ::isatty(STDIN_FILENO))
     throw text::usage_error("no graph: give a FILE or pipe one in");
-  begin_reading(input.path);
+  begin_reading(path);
+}
+
+// Nothing at all is what a failed command upstream leaves, not a graph.
+void expect_something(const Graph& graph) {
+  if (graph.vertices() == 0)
+    throw text::input_error(graph.file, 0, "there is no vertex and no edge in it");
+}
+
+}  // namespace
+
+text::Text read_text(const Input& input) {
+  begin_reading_graph(input.path);
   return text::read_text(input.path);
 }
 
@@ -230,10 +246,17 @@ Graph read(const Input& input, text::Text text) {
   const std::size_t bytes = text.view.size();
   Graph graph =
       formats::read_graph_text(std::move(text), text::input_name(input.path), input.options);
-  // Nothing at all is what a failed command upstream leaves, not a graph.
-  if (graph.vertices() == 0)
-    throw text::input_error(graph.file, 0, "there is no vertex and no edge in it");
+  expect_something(graph);
   note_graph(graph, format, bytes);
+  return graph;
+}
+
+Graph read_thinly(const Input& input) {
+  begin_reading_graph(input.path);
+  formats::Source source;
+  Graph graph = formats::read_graph_thinly(input.path, input.options, source);
+  expect_something(graph);
+  note_graph(graph, source.format, source.bytes);
   return graph;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cmd/plot/words.h"
+#include "formats/thin.h"
 #include "lib/factor/initialize.h"
 #include "lib/factor/linearize.h"
 #include "lib/factor/residuals.h"
@@ -15,11 +16,17 @@
 namespace sg::plot {
 namespace {
 
-constexpr Index most_edges = 50000;  // more would say the same
+// Of more edges, some, which say the same: those of which a graph that was read thinly knows what they measure. (Where estimates
+// have to be composed along edges, all.)
+Index stride(const Graph& graph) {
+  constexpr formats::Thin thin;
+  if (graph.edges_only || graph.edges() <= thin.first) return 1;
+  return thin.every * (1 + graph.edges() / (thin.every * thin.first));
+}
 
-// The same vertices with every so many-th edge. (Where estimates have to be composed along edges it takes them all.)
+// The same vertices with every so many-th edge.
 Graph sampled(const Graph& graph) {
-  const Index every = graph.edges_only ? 1 : 1 + graph.edges() / most_edges;
+  const Index every = stride(graph);
   Graph result;
   result.file = graph.file;
   result.text = graph.text;

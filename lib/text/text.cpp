@@ -30,6 +30,7 @@
 #include <stdexcept>
 
 #include "lib/text/error.h"
+#include "lib/text/stream.h"
 
 namespace sg::text {
 namespace {
@@ -100,18 +101,29 @@ Text unpacked(Text text, const std::string& path) {
   return text;
 }
 
-// read(2) itself, since std::istream hides the reason for a failure. grow(bytes, capacity) moves both on to a room that
-// is larger, with what is in it. Returns how many bytes there are.
-std::size_t read_all(int descriptor, const std::string& path, char*& bytes, const auto& grow) {
-  constexpr std::size_t least = 1U << 16;
-  std::size_t size = 0, capacity = 0;
+// read(2) itself, since std::istream hides the reason for a failure. 0 at the end.
+std::size_t read_some(int descriptor, const std::string& path, char* bytes, std::size_t most) {
   while (true) {
-    if (capacity - size < least) grow(bytes, capacity);
-    const ssize_t count = ::read(descriptor, bytes + size, capacity - size);
+    const ssize_t count = ::read(descriptor, bytes, most);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw input_error(path, 0, std::strerror(errno));
+    return static_cast<std::size_t>(count);
+  }
+}
+
+// What is there already, and all that comes. grow(bytes, capacity) moves both on to a room that is larger, with what is in
+// it. Returns how many bytes there are.
+std::size_t read_all(int descriptor, const std::string& path, std::string_view head, char*& bytes,
+                     const auto& grow) {
+  constexpr std::size_t least = 1U << 16;
+  std::size_t capacity = 0;
+  while (capacity < head.size() + least) grow(bytes, capacity);
+  std::size_t size = head.copy(bytes, head.size());
+  while (true) {
+    if (capacity - size < least) grow(bytes, capacity);
+    const std::size_t count = read_some(descriptor, path, bytes + size, capacity - size);
     if (count == 0) return size;
-    size += static_cast<std::size_t>(count);
+    size += count;
   }
 }
 
@@ -131,12 +143,12 @@ Room reserve() {
 
 // Into reserved space: nothing moves, and beyond the first two megabytes the kernel may give memory by as much at a time,
 // where else it would be asked page by page. That is half of what a pipe takes.
-Text drain(int descriptor, const std::string& path, Room room) {
+Text drain(int descriptor, const std::string& path, std::string_view head, Room room) {
   static constexpr std::uintptr_t huge = 1U << 21;
   const auto from = reinterpret_cast<std::uintptr_t>(room.get());
   char* bytes = room.get() + ((huge - from % huge) % huge);
   const std::size_t size =
-      read_all(descriptor, path, bytes, [](char* begin, std::size_t& capacity) {
+      read_all(descriptor, path, head, bytes, [](char* begin, std::size_t& capacity) {
         const std::size_t more = std::max<std::size_t>(capacity, huge);
         if (::mprotect(begin + capacity, more, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
         if (capacity > 0) ::madvise(begin + capacity, more, MADV_HUGEPAGE);
@@ -151,11 +163,11 @@ struct Free {
 
 // Where space is limited: realloc moves large blocks without touching them and leaves what lies unused out of memory, so
 // that a text takes no more than its size.
-Text drain_tightly(int descriptor, const std::string& path) {
+Text drain_tightly(int descriptor, const std::string& path, std::string_view head) {
   std::unique_ptr<char, Free> room;
   char* bytes = nullptr;
   const std::size_t size =
-      read_all(descriptor, path, bytes, [&](char*& begin, std::size_t& capacity) {
+      read_all(descriptor, path, head, bytes, [&](char*& begin, std::size_t& capacity) {
         capacity = std::max<std::size_t>(1U << 20, capacity * 2);
         begin = static_cast<char*>(std::realloc(room.get(), capacity));
         if (!begin) throw std::bad_alloc();
@@ -165,13 +177,28 @@ Text drain_tightly(int descriptor, const std::string& path) {
   return {std::shared_ptr<const char>(std::move(room)), {bytes, size}};
 }
 
-// All that a descriptor gives. A pipe is made as wide as anybody may make one, where it can be: both its ends wait for each
-// other less.
-Text drain(int descriptor, const std::string& path) {
+// A pipe is made as wide as anybody may make one, where it can be: both its ends wait for each other less.
+void widen(int descriptor) {
   constexpr int widest_pipe = 1 << 20;  // /proc/sys/fs/pipe-max-size, unless somebody changed it
   ::fcntl(descriptor, F_SETPIPE_SZ, widest_pipe);
+}
+
+// All that a descriptor gives, behind what it has given.
+Text drain(int descriptor, const std::string& path, std::string_view head = "") {
+  widen(descriptor);
   Room room = reserve();
-  return room ? drain(descriptor, path, std::move(room)) : drain_tightly(descriptor, path);
+  return room ? drain(descriptor, path, head, std::move(room))
+              : drain_tightly(descriptor, path, head);
+}
+
+std::shared_ptr<const void> closing(int descriptor) {
+  return {nullptr, [descriptor](const void*) { ::close(descriptor); }};
+}
+
+int opened(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw input_error(path, 0, std::strerror(errno));
+  return descriptor;
 }
 
 Text read_path(const std::string& path) {
@@ -182,9 +209,8 @@ Text read_path(const std::string& path) {
     const std::string_view view(map->data(), map->size());
     return {std::move(map), view};
   }
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw input_error(path, 0, std::strerror(errno));
-  const std::shared_ptr<void> close_later(nullptr, [descriptor](void*) { ::close(descriptor); });
+  const int descriptor = opened(path);
+  const auto close_later = closing(descriptor);
   return drain(descriptor, path);
 }
 
@@ -217,6 +243,28 @@ Text read_text(const std::string& path) {
     if (errno == ENOMEM) throw std::bad_alloc();
     throw input_error(path, 0, errno ? std::strerror(errno) : error.what());
   }
+}
+
+Stream open_stream(const std::string& path) {
+  const int descriptor = path == "-" ? STDIN_FILENO : opened(path);
+  widen(descriptor);
+  return {input_name(path), descriptor, path == "-" ? nullptr : closing(descriptor)};
+}
+
+std::string_view read_block(const Stream& stream, std::span<char> room) {
+  std::size_t size = 0;
+  while (size < room.size()) {
+    const std::size_t count =
+        read_some(stream.descriptor, stream.path, room.data() + size, room.size() - size);
+    if (count == 0) break;
+    size += count;
+  }
+  return {room.data(), size};
+}
+
+Text read_rest(const Stream& stream, std::string_view head) {
+  return without_mark(unpacked(drain(stream.descriptor, stream.path, head), stream.path),
+                      stream.path);
 }
 
 }  // namespace sg::text

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "formats/g2o.h"
+#include "formats/thin.h"
 #include "lib/elim/score.h"
 #include "lib/graph/replay.h"
 #include "lib/order/order.h"
@@ -45,7 +47,67 @@ std::string format_of(std::string_view text) {
   return "";
 }
 
+// What two ways of reading one text say of it.
+struct Read {
+  Graph graph;
+  std::vector<std::string> complaints;
+};
+
+Read read_whole(const std::string& text) {
+  std::vector<std::string> said;
+  const auto note = [&](const text::Error& error) { said.push_back(text::message(error)); };
+  Graph graph = formats::parse_g2o(text::text_of(text), "test", graph::builtin_tags(), note);
+  return {std::move(graph), said};
+}
+
+Read read_thinly(const std::string& text, test::Random& random, const formats::Thin& thin) {
+  std::vector<std::string> said;
+  const auto note = [&](const text::Error& error) { said.push_back(text::message(error)); };
+  std::size_t at = 0;
+  const auto next = [&] {
+    const auto size = static_cast<std::size_t>(test::draw(random, 1, 200));
+    const auto block = std::string_view(text).substr(std::min(at, text.size()), size);
+    at += size;
+    return block;
+  };
+  Graph graph = formats::parse_g2o_thinly(next, "test", graph::builtin_tags(), note, {}, thin);
+  return {std::move(graph), said};
+}
+
 }  // namespace
+
+TEST_CASE("a text that is not kept gives the same graph, and lines of the same numbers",
+          "[formats]") {
+  test::Random random(5);
+  for (const char* name : {"walk.g2o", "types-se2.g2o", "types-se3.g2o"}) {
+    std::string text(test::test_graph(name).text.view);
+    for (int round = 0; round < 20; ++round) {
+      if (round > 10)  // defects
+        text[static_cast<std::size_t>(test::draw(random, 0, static_cast<int>(text.size()) - 1))] =
+            "x\n 7-"[test::draw(random, 0, 4)];
+      const formats::Thin thin{test::draw(random, 0, 9), test::draw(random, 1, 5)};
+      const Read whole = read_whole(text), thinned = read_thinly(text, random, thin);
+      CAPTURE(name, round, text);
+      CHECK(thinned.complaints == whole.complaints);
+      const Graph &a = whole.graph, &b = thinned.graph;
+      REQUIRE((a.id == b.id && a.vertex_type == b.vertex_type && a.fixed == b.fixed));
+      REQUIRE((a.edge_type == b.edge_type && a.edge_vertices.items == b.edge_vertices.items &&
+               a.edge_vertices.begin == b.edge_vertices.begin));
+      CHECK((a.order_method == b.order_method && a.edges_only == b.edges_only));
+      for (Index v = 0; v < a.vertices() && !a.edges_only; ++v)
+        CHECK(graph::line_at(a, a.vertex_line[v]) == graph::line_at(b, b.vertex_line[v]));
+      Index gone = 0;
+      for (Index e = 0; e < a.edges(); ++e) {
+        CHECK(graph::line_number(a, a.edge_line[e]) == graph::line_number(b, b.edge_line[e]));
+        const auto line = graph::line_at(b, b.edge_line[e]);
+        gone += line.empty();
+        CHECK((line.empty() || line == graph::line_at(a, a.edge_line[e])));
+      }
+      if (round <= 10 && thin.every == 1) CHECK(gone == 0);
+      if (round <= 10 && thin.every > 1 && thin.first + 2 < a.edges()) CHECK(gone > 0);
+    }
+  }
+}
 
 TEST_CASE("formats are told by content", "[formats]") {
   CHECK(format_of("ODOMETRY 0 1 1 0 0 1 0 0 1 0 1\n") == "isam");

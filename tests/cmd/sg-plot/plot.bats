@@ -187,6 +187,8 @@ letters() { grep -c '<use xlink:href="#glyph' "$1" || true; }
   [ "$(stat -c %s m.svg)" -lt 5000000 ]
   [ "$(grep -oE ' L ' m.svg | wc -l)" -lt 110000 ]
   [ "$(grep -oE ' L ' m.svg | wc -l)" -gt 20000 ]
+  # It is not kept while it is read, unless it is packed: to the same end.
+  gzip -c m.g2o | sg-plot map | cmp - <(sg-plot map <m.g2o)
 }
 
 # lines COLOUR FILE: the lines of a colour, "M x y L x y" each.
