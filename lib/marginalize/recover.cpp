@@ -15,7 +15,7 @@ using Eigen::LLT;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double first_barrier = 0.1, shrink = 0.0215, last_barrier = 5e-12;
+constexpr double first_barrier = 0.1, shrink = 0.0215;
 constexpr int most_steps = 30;  // of Newton, for one barrier
 
 // The problem in coordinates of its own: S = I and J_k J_k' = I. Then A_k = I, and the unknown V_k is W_k as a multiple
@@ -242,7 +242,7 @@ Recovery recover(std::span<const MatrixXd> slopes, const MatrixXd& covariance,
                              : static_cast<double>(problem.m) / static_cast<double>(rows);
     for (MatrixXd& block : V) block *= start;
     double before = first_barrier;
-    for (double barrier = first_barrier; barrier > last_barrier; barrier *= shrink) {
+    for (double barrier = first_barrier; barrier > options.barrier; barrier *= shrink) {
       minimize(problem, options, barrier, before, V);
       before = barrier;
     }

@@ -19,6 +19,8 @@ using Eigen::VectorXd;
 
 constexpr std::array<std::string_view, 6> names{"dense", "tree", "subgraph", "l1", "seif", "ec"};
 
+constexpr double least_share = 1e-3;  // l1: of what a tree's measurement has, for a pair to count
+
 // What is added to the information of a direction that nothing is known of, as a part of its diagonal.
 constexpr double next_to_nothing = 1e-9;
 
@@ -108,14 +110,17 @@ std::vector<Index> penalized(const Blanket& blanket, const std::vector<Pair>& pa
   std::vector<MatrixXd> slopes;
   for (const Index k : offered) slopes.push_back(spread(blanket, pairs[k]));
   const Recovery recovered = recover(slopes, blanket.covariance,
-                                     {.conservative = true, .penalty = penalty, .multiples = true});
+                                     {.conservative = true,
+                                      .penalty = penalty,
+                                      .multiples = true,
+                                      .barrier = 1e-3 * least_share});
   std::vector<double> share(pairs.size(), 0);
   for (std::size_t i = 0; i < offered.size(); ++i) {
     const MatrixXd& A = pairs[offered[i]].covariance;
     share[offered[i]] = (recovered.information[i] * A).trace() / static_cast<double>(A.rows());
   }
   std::vector<Index> result = others(pairs, tree);
-  std::erase_if(result, [&](Index k) { return share[k] < 1e-3; });
+  std::erase_if(result, [&](Index k) { return share[k] < least_share; });
   return first_few(std::move(result), tree, share);
 }
 

@@ -120,6 +120,12 @@ struct Case {
     const std::vector<int> stay = scalars();
     return Q(stay, stay);
   }
+  marginalize::Rest with_all() const {
+    std::vector<const marginalize::Offer*> all;
+    for (const marginalize::Offer& offer : offered.offers) all.push_back(&offer);
+    return {whole, all,
+            [](const graph::Pattern& p) { return sg::order::elimination_order("wmf", p); }};
+  }
   double divergence(const std::vector<marginalize::Offer>& offers) const {
     const MatrixXd Q = left(offers), product = Q * truth();
     const double determinant = product.determinant();
@@ -187,7 +193,8 @@ TEST_CASE("a worth is what goes with a measurement, or comes with it", "[margina
       offer.information = offer.truth.inverse() / 3;
     }
     const double before = test.divergence(offers);
-    const std::vector<double> worth = marginalize::worths(test.whole, offers);
+    marginalize::Rest all = test.with_all();
+    const std::vector<double> worth = marginalize::worths(offers, all);
     for (std::size_t k = 0; k < offers.size(); ++k) {
       std::vector<marginalize::Offer> other = offers;
       other[k].taken = !other[k].taken;
@@ -240,7 +247,7 @@ TEST_CASE("measurements come and go, and every state is what it is said to be", 
     double first = 0, least = std::numeric_limits<double>::infinity(), last = 0;
     int states = 0;
     const VectorXd none = VectorXd::Zero(test.trees.owed.size());
-    marginalize::exchange(test.whole, none, rate, offers, [&](const marginalize::State& state) {
+    const auto see = [&](const marginalize::State& state) {
       const graph::Pattern left = marginalize::pattern_left(test.whole, state.offers).pattern;
       CHECK(state.ec == elim::to_double(elim::elimination_complexity(
                             left, order::elimination_order("wmf", left))));
@@ -251,7 +258,15 @@ TEST_CASE("measurements come and go, and every state is what it is said to be", 
       last = state.lost + rate * state.ec;
       if (states++ == 0) first = last;
       least = std::min(least, last);
-    });
+    };
+    const marginalize::Terms terms{test.whole, none, rate, see};
+    marginalize::Rest all = test.with_all();
+    marginalize::Exchange exchange{offers};
+    // In two parts, as if nothing had been between them.
+    marginalize::advance(terms, 2, all, exchange);
+    marginalize::advance(terms, 13, all, exchange);
+    marginalize::settle(terms, exchange);
+    offers = exchange.offers;
     REQUIRE(states > 0);
     CHECK(last <= least + 1e-9);
     CHECK(last <= first + 1e-9);
