@@ -15,10 +15,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_corrections = 10;                 // of what damping leaves
-constexpr double exactly = 1e-12, roughly = 1e-4;    // what they may leave
-constexpr int most_steps = 40;        // of a measurement
-constexpr double enough = 1e-14;      // of its error
+constexpr int most_corrections = 10;               // of what damping leaves
+constexpr double exactly = 1e-12, roughly = 1e-4;  // what they may leave
+constexpr int most_steps = 40;                     // of a measurement
+constexpr double enough = 1e-14;                   // of its error
 constexpr int most_halvings = 30;
 constexpr double near_enough = 1e-6, least_turn = 0.1;
 constexpr double closer = 0.7;     // than before, or the slope is renewed
@@ -210,7 +210,8 @@ VectorXd solved(const Moved& moved, const VectorXd& error, const MatrixXd& J,
 void set_error(const Settlement& s, const Spring& spring, const VectorXd& x, Measurement& m) {
   const VectorXd whole = along(s, spring, x);
   if (whole.isZero(0)) return;
-  const MatrixXd &J = spring.slope, own = J.rightCols(s.at.dim(m.of.second < 0 ? m.of.first : m.of.second));
+  const MatrixXd &J = spring.slope,
+                 own = J.rightCols(s.at.dim(m.of.second < 0 ? m.of.first : m.of.second));
   const auto d = J.rows();
   const Moved moved{s.at, m.of,
                     J.transpose() * (J * J.transpose()).llt().solve(MatrixXd::Identity(d, d))};

@@ -13,7 +13,8 @@
 namespace sg::marginalize {
 namespace {
 
-constexpr int patience = 2;
+constexpr double less = 0.25, more = 2;  // of the moves, after a turn that lost and one that gained
+constexpr double fewest = 0.02;
 constexpr int few_steps = 3, most_steps = 30;  // of fitting, within a turn and at last
 constexpr double gap = 0.02;                   // that fitting may leave, in nats
 constexpr double factor_cost = 100;            // of any, beside elimination
@@ -73,11 +74,6 @@ std::vector<bool> indispensable(const Whole& whole, const std::vector<Offer>& of
   return result;
 }
 
-struct Move {
-  Index offer;
-  double gain;  // nats, EC for its price
-};
-
 // All that gain, those that gain most first.
 std::vector<Move> moves(const Whole& whole, double rate, const Exchange& exchange, Rest& all) {
   const std::vector<Offer>& offers = exchange.offers;
@@ -115,23 +111,27 @@ std::vector<Move> moves(const Whole& whole, double rate, const Exchange& exchang
   return result;
 }
 
-// Makes those of the moves that share no vertex; returns how many.
-int make(std::span<const Move> moves, const Graph& graph, std::vector<Offer>& offers) {
+// Makes this part of the moves that share no vertex, those that gain most; returns how many.
+std::size_t make(std::span<const Move> moves, double part, const Graph& graph,
+                 std::vector<Offer>& offers) {
   std::vector<bool> touched(graph.vertices(), false);
-  int made = 0;
+  std::vector<Move> apart;
   for (const Move& move : moves) {
-    Offer& offer = offers[move.offer];
-    const std::vector<Index> ends = ends_of(offer.of);
+    const std::vector<Index> ends = ends_of(offers[move.offer].of);
     if (std::ranges::any_of(ends, [&](Index v) { return touched[v]; })) continue;
     for (const Index v : ends) touched[v] = true;
+    apart.push_back(move);
+  }
+  apart.resize(static_cast<std::size_t>(std::ceil(part * static_cast<double>(apart.size()))));
+  for (const Move& move : apart) {
+    Offer& offer = offers[move.offer];
     offer.taken = !offer.taken;
     const auto d = offer.truth.rows();
     if (offer.taken)
       offer.information =
           next_to_nothing * offer.truth.llt().solve(Eigen::MatrixXd::Identity(d, d));
-    ++made;
   }
-  return made;
+  return apart.size();
 }
 
 // Of every offer, 0 of those that are not taken.
@@ -169,15 +169,18 @@ double show(const Terms& terms, int steps, Exchange& exchange) {
 void advance(const Terms& terms, int turns, Rest& all, Exchange& exchange) {
   for (int turn = 0; turn < turns && !exchange.over; ++turn) {
     const double now = show(terms, few_steps, exchange);
-    ++exchange.without;
     if (now < exchange.least) {
       exchange.least = now;
       exchange.best = exchange.offers;
-      exchange.without = 0;
+      exchange.moves = moves(terms.whole, terms.rate, exchange, all);
+      exchange.part = std::min(1.0, more * exchange.part);
+    } else {
+      exchange.offers = exchange.best;
+      exchange.part *= less;
     }
-    exchange.over = std::isinf(now) || exchange.without > patience ||
-                    make(moves(terms.whole, terms.rate, exchange, all),
-                         *terms.whole.at.problem.graph, exchange.offers) == 0;
+    exchange.over =
+        exchange.best.empty() || exchange.part < fewest ||
+        make(exchange.moves, exchange.part, *terms.whole.at.problem.graph, exchange.offers) == 0;
   }
 }
 

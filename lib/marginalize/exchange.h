@@ -23,11 +23,17 @@ struct Terms {
   std::function<void(const State&)> see;
 };
 
+struct Move {
+  Index offer;
+  double gain;  // nats, EC for its price
+};
+
 struct Exchange {
   std::vector<Offer> offers;
-  std::vector<Offer> best = {};  // of all states
+  std::vector<Offer> best = {};                            // of all states
   double least = std::numeric_limits<double>::infinity();  // what that loses and costs
-  int without = 0;                                         // turns since then
+  std::vector<Move> moves = {};                            // from there
+  double part = 1;                                         // of these that are made
   bool over = false;
   std::vector<double> strain = {};  // of what is taken
   graph::Order order = {};          // of what is left with it
@@ -41,7 +47,8 @@ struct Exchange {
 // What carries a force is worth its strain, too: others would have to carry it, with larger errors, and a graph under
 // strain has other valleys.
 //
-// It is over where nothing gains. all: of these offers, for any exchange of them.
+// A turn that ends with more lost than the best before it is taken back, and fewer moves made from there: those that gain
+// most. It is over where nothing gains. all: of these offers, for any exchange of them.
 void advance(const Terms& terms, int turns, Rest& all, Exchange& exchange);
 // Its best state, fitted to the end, is what it has.
 void settle(const Terms& terms, Exchange& exchange);

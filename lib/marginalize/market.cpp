@@ -13,11 +13,12 @@
 namespace sg::marginalize {
 namespace {
 
-constexpr std::string_view ordering = "wmf";  // that EC is priced in
-constexpr RecoveryOptions rough{.gap = 0.1, .barrier = 1e-3};  // what is fitted later
+constexpr std::string_view ordering = "wmf";                    // that EC is priced in
+constexpr RecoveryOptions rough{.sweeps = 4, .barrier = 1e-3};  // what is fitted later
 constexpr int bracketings = 5, bisections = 6;
 constexpr double step = 8;  // of prices, as long as none on the other side is known
-constexpr int first_turns = 4, further_turns = 11;  // of exchange, from each start and from the better
+constexpr int first_turns = 4,
+              further_turns = 11;  // of exchange, from each start and from the better
 
 // A draft that need not be written out.
 struct Priced {

@@ -327,6 +327,23 @@ TEST_CASE("errors bring what is owed, however large they have to be", "[marginal
       return sum;
     };
     const MatrixXd before = known();
+    // Of the errors J x, with x of all vertices but the first.
+    const int rest = static_cast<int>(owed.size()) - at.dim(0);
+    VectorXd x = VectorXd::Zero(owed.size());
+    x.tail(rest) = before.bottomRightCorner(rest, rest).ldlt().solve(owed.tail(rest));
+    std::vector<MatrixXd> slopes;
+    for (const marginalize::Measurement& m : all) slopes.push_back(marginalize::slope(at, m.of));
+    std::vector<marginalize::Spring> springs;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      springs.push_back({all[k].of, slopes[k], all[k].information});
+    const std::vector<double> strain = marginalize::strains(at, owed, springs);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const int first = at.dim(all[k].of.first), second = at.dim(all[k].of.second);
+      VectorXd own(first + second);
+      own << x.segment(start[all[k].of.first], first), x.segment(start[all[k].of.second], second);
+      const VectorXd error = slopes[k] * own;
+      CHECK(strain[k] == Approx(error.dot(all[k].information * error) / 2).epsilon(1e-3));
+    }
     marginalize::set_errors(at, owed, pointers);
     CHECK((known() - before).norm() < 1e-8 * before.norm());
     VectorXd given = VectorXd::Zero(owed.size());
