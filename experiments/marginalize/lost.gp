@@ -4,10 +4,8 @@ set output out
 set datafile separator '\t'
 set datafile missing '-'
 set logscale xy
-set format x '10^{%L}'
+set format x '%.0s%c'
 set format y '%g'
-set xtics 10
-set mxtics 10
 set autoscale noextend
 set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05
 set grid lc rgb '#e4e4e4'
@@ -21,6 +19,7 @@ colours = '#1f78b4 #1b9e77 #d95f02 #7570b3 #a6761d #666666 #b2182b'
 shapes = '5 9 11 13 6 4 7'
 # Sorted by EC: ec's prices are one curve, whatever their clustering.
 rows(k, rate) = sprintf("< awk -F'\\t' '$1 == \"%s\" && $2 == \"%s\" && $3 ~ /%s/ && $8 + 0 > 0' %s | sort -t \"\t\" -k 7,7g", graph, rate, word(families, k), table)
+rates = system(sprintf("awk -F'\\t' '$1 == \"%s\" && $8 + 0 > 0 {print $2}' %s | sort -nu | paste -sd' '", graph, table))
 set multiplot layout (words(rates) + 1) / 2, 2 title graph noenhanced
 do for [n=1:words(rates)] {
   set title 'one pose of '.word(rates, n)

@@ -134,6 +134,12 @@ struct Case {
   }
 };
 
+std::vector<bool> taken_of(const std::vector<marginalize::Offer>& offers) {
+  std::vector<bool> result;
+  for (const marginalize::Offer& offer : offers) result.push_back(offer.taken);
+  return result;
+}
+
 std::string text_of(Random& random, int seed) {
   return random_text(random, {.plane = seed % 2 == 0,
                               .poses = draw(random, 6, 10),
@@ -195,6 +201,15 @@ TEST_CASE("a worth is what goes with a measurement, or comes with it", "[margina
     const double before = test.divergence(offers);
     marginalize::Rest all = test.with_all();
     const std::vector<double> worth = marginalize::worths(offers, all);
+    {  // What is planned once is of any that are taken.
+      std::vector<marginalize::Offer> others = offers;
+      for (marginalize::Offer& offer : others) {
+        if (offer.taken && draw(random, 0, 3) == 0) offer.taken = false;
+      }
+      marginalize::Rest fresh = test.with_all();
+      CHECK(marginalize::worths(others, all) == marginalize::worths(others, fresh));
+      CHECK(marginalize::worths(offers, all) == worth);
+    }
     for (std::size_t k = 0; k < offers.size(); ++k) {
       std::vector<marginalize::Offer> other = offers;
       other[k].taken = !other[k].taken;
@@ -246,8 +261,23 @@ TEST_CASE("measurements come and go, and every state is what it is said to be", 
     const double rate = seed % 3 == 0 ? 1e-9 : seed % 3 == 1 ? 1e-4 : 1;
     double first = 0, least = std::numeric_limits<double>::infinity(), last = 0;
     int states = 0;
+    marginalize::Exchange exchange{offers};
     const VectorXd none = VectorXd::Zero(test.trees.owed.size());
+    bool settling = false;
     const auto see = [&](const marginalize::State& state) {
+      // Every turn starts from the best, and makes the first of the moves that share no vertex.
+      std::size_t moved = 0, apart = 0;
+      for (std::size_t k = 0; k < exchange.best.size(); ++k)
+        moved += state.offers[k].taken != exchange.best[k].taken;
+      std::vector<bool> touched(test.full.graph.vertices(), false);
+      for (const marginalize::Move& move : exchange.moves) {
+        const auto ends = marginalize::ends_of(offers[move.offer].of);
+        if (std::ranges::any_of(ends, [&](Index v) { return touched[v]; })) continue;
+        for (const Index v : ends) touched[v] = true;
+        ++apart;
+      }
+      CHECK(static_cast<double>(moved) ==
+            (settling ? 0 : std::ceil(exchange.part * static_cast<double>(apart))));
       const graph::Pattern left = marginalize::pattern_left(test.whole, state.offers).pattern;
       CHECK(state.ec == elim::to_double(elim::elimination_complexity(
                             left, order::elimination_order("wmf", left))));
@@ -261,11 +291,20 @@ TEST_CASE("measurements come and go, and every state is what it is said to be", 
     };
     const marginalize::Terms terms{test.whole, none, rate, see};
     marginalize::Rest all = test.with_all();
-    marginalize::Exchange exchange{offers};
-    // In two parts, as if nothing had been between them.
-    marginalize::advance(terms, 2, all, exchange);
+    marginalize::advance(terms, 1, all, exchange);
+    // Cut short, it has its best all the same.
+    marginalize::Exchange cut = exchange;
+    settling = true;
+    marginalize::settle(terms, cut);
+    CHECK(taken_of(cut.offers) == taken_of(exchange.best));
+    settling = false;
+    // In parts, as if nothing had been between them.
+    marginalize::advance(terms, 1, all, exchange);
     marginalize::advance(terms, 13, all, exchange);
+    const std::vector<bool> best = taken_of(exchange.best);
+    settling = true;
     marginalize::settle(terms, exchange);
+    CHECK(taken_of(exchange.offers) == best);
     offers = exchange.offers;
     REQUIRE(states > 0);
     CHECK(last <= least + 1e-9);
