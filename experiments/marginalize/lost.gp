@@ -3,7 +3,8 @@ set terminal svg size 980,760 font 'sans,12' background rgb 'white' enhanced
 set output out
 set datafile separator '\t'
 set datafile missing '-'
-set logscale xy
+set logscale x 2
+set logscale y
 set format x '%.0s%c'
 set format y '%g'
 set autoscale noextend
