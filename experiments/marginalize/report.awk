@@ -115,8 +115,8 @@ function growth(   i, g, sizes, ways, seen, where, w, s, first, last) {
     printf "| %s |", kind[w]
     for (s = 1; s <= sizes; ++s) { i = where[size[s], kind[w]]; printf " %s | %s |", number(seconds[i], 3), number(peak[i], 3) }
     i = where[first, kind[w]]; g = where[last, kind[w]]
+    if (i && seconds[i] + 0 > slowest) { slowest = seconds[i] + 0; slowest_way = kind[w] }
     if (!i || !g) { print " - | - |"; continue }
-    if (seconds[i] + 0 > slowest) { slowest = seconds[i] + 0; slowest_way = kind[w] }
     if (peak[g] / peak[i] > widest) { widest = peak[g] / peak[i]; widest_way = kind[w] }
     printf " %.2f | %.2f |\n", seconds[g] / seconds[i], peak[g] / peak[i]
   }
