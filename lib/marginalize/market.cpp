@@ -104,16 +104,18 @@ Draft drafted(const Market& market, const Draft& start, const std::vector<Offer>
 void look(const Market& market, double price, const auto& see) {
   const double rate = price * market.unit;
   const Draft pass = pass_at(market, rate);
+  bool any = false;
+  const auto see_pass = [&] {
+    see(Priced{complexity(pattern_of(market, pass).pattern), pass.divergence, [&] { return pass; }},
+        rate);
+  };
   const Draft* const drafts[] = {&market.trees, &pass};
   const Whole rest(market.at, market.removed, pass.edge_gone);
   auto there = market.rule.conservative ? std::nullopt : offered(rest, all_of(drafts));
-  if (!there) {
-    see(Priced{complexity(pattern_of(market, pass).pattern), pass.divergence, [&] { return pass; }},
-        rate);
-    return;
-  }
+  if (!there) return see_pass();
   const auto terms = [&](const Draft& start) -> Terms {
     return {rest, start.owed, rate, [&](const State& state) {
+              any = true;
               const double lost = state.lost + there->constant;
               see(Priced{state.ec, lost + state.strain,
                          [&] { return drafted(market, start, state.offers, lost); }},
@@ -136,6 +138,7 @@ void look(const Market& market, double price, const auto& see) {
   const Terms on = terms(trees ? market.trees : pass);
   advance(on, further_turns, all, better);
   settle(on, better);
+  if (!any) see_pass();  // nothing that was taken would determine all
 }
 
 Draft best_at(const Market& market, double price) {
