@@ -110,7 +110,7 @@ void check_call(const cmd::Command& command, const Options& options) {
   cmd::at_most_one(command.app, {{"-r", "leaves every R-th"}, {"--angle", "one every A degrees"}},
                    question);
   if (!options.landmarks.empty() && options.landmarks != "all" &&
-      !text::parse<Index>(options.landmarks))
+      text::parse<Index>(options.landmarks).value_or(0) < 1)
     throw text::usage_error("--landmarks wants all, or a number of observations, not '" +
                             options.landmarks + "'");
   if (options.as == "factors" && options.topology != "dense")
@@ -132,19 +132,23 @@ void check_call(const cmd::Command& command, const Options& options) {
                    "how much EC?");
 }
 
-// What --ids says: a list of ids and ranges, or the name of a file that holds them.
-std::vector<std::string> ids_of(const Options& options) {
+// What --ids says: a list of ids and ranges, or the name of a file that holds them; and what they are called in a message.
+struct Ids {
+  std::vector<std::string> words;
+  std::string name;
+};
+Ids ids_of(const Options& options) {
   if (options.ids.size() != 1 ||
       options.ids[0].find_first_not_of("0123456789:") == std::string::npos)
-    return options.ids;
+    return {options.ids, "--ids"};
   const std::string& path = options.ids[0];
   std::ifstream file(path);
-  if (!file)
+  Ids ids{{}, "--ids " + path + ":"};
+  for (std::string word; file >> word;) ids.words.push_back(word);
+  if (!file.is_open() || file.bad())
     throw text::usage_error("--ids " + path +
                             " is neither a list of ids nor a file that can be read");
-  std::vector<std::string> words;
-  for (std::string word; file >> word;) words.push_back(word);
-  return words;
+  return ids;
 }
 
 // The last pose that looks at every vertex, by pose index; of a pose its own; -1 of what none looks at.
@@ -195,7 +199,8 @@ std::vector<bool> chosen_vertices(const Graph& graph, const Options& options) {
     if (graph.fixed[v]) removed[v] = false;
   }
   if (options.ids.empty()) return removed;
-  for (const auto& [first, last] : cmd::ranges_of_vertices(graph, "--ids", ids_of(options))) {
+  const Ids ids = ids_of(options);
+  for (const auto& [first, last] : cmd::ranges_of_vertices(graph, ids.name, ids.words)) {
     for (auto id = std::ranges::lower_bound(graph.id, first); id != graph.id.end() && *id <= last;
          ++id) {
       const auto v = static_cast<Index>(id - graph.id.begin());

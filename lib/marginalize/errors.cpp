@@ -15,9 +15,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_corrections = 10;  // of what damping leaves
-constexpr int most_steps = 40;        // of a measurement
-constexpr double enough = 1e-14;      // of its error
+constexpr int most_corrections = 10;               // of what damping leaves
+constexpr double exactly = 1e-12, roughly = 1e-4;  // what they may leave
+constexpr int most_steps = 40;                     // of a measurement
+constexpr double enough = 1e-14;                   // of its error
 constexpr int most_halvings = 30;
 constexpr double near_enough = 1e-6, least_turn = 0.1;
 constexpr double closer = 0.7;     // than before, or the slope is renewed
@@ -27,26 +28,25 @@ constexpr double damping = 1e-10;
 
 struct Settlement {
   const At& at;
-  std::span<Measurement* const> measurements;
-  std::vector<MatrixXd> slope;  // of every measurement without an error
-  std::vector<int> start;       // of every vertex in the scalars of all
-  std::vector<bool> moves;      // vertices
+  std::span<const Spring> springs;
+  std::vector<int> start;   // of every vertex in the scalars of all
+  std::vector<bool> moves;  // vertices
 };
 
-std::vector<Index> ends(const Measurement& m) {
-  return m.of.second < 0 ? std::vector{m.of.first} : std::vector{m.of.first, m.of.second};
+// Calls visit(v) for its vertices, as they follow each other in its slope.
+void each_end(const Measurable& of, const auto& visit) {
+  visit(of.first);
+  if (of.second >= 0) visit(of.second);
 }
 
 // One vertex of every part that only moves with the whole is held, and so are constants.
-std::vector<bool> moving(const At& at, std::span<Measurement* const> measurements) {
+std::vector<bool> moving(const At& at, std::span<const Spring> springs) {
   const Graph& graph = *at.problem.graph;
   graph::DisjointSets parts(graph.vertices() + 1);  // the last: the world
   std::vector<bool> moves(graph.vertices(), false);
-  for (const Measurement* m : measurements) {
-    join(parts, m->of.first, m->of.second < 0 ? graph.vertices() : m->of.second);
-    for (const Index v : {m->of.first, m->of.second}) {
-      if (v >= 0) moves[v] = true;
-    }
+  for (const Spring& spring : springs) {
+    join(parts, spring.of.first, spring.of.second < 0 ? graph.vertices() : spring.of.second);
+    each_end(spring.of, [&](Index v) { moves[v] = true; });
   }
   for (Index v = 0; v < graph.vertices(); ++v) {
     if (!graph.fixed[v] || !moves[v]) continue;
@@ -76,14 +76,14 @@ bool factor_system(const Settlement& s, System& system) {
   if (count == 0) return false;
   system.diagonal = VectorXd::Zero(count);
   sparse::Triplets lower;
-  for (std::size_t k = 0; k < s.measurements.size(); ++k) {
-    const Measurement& m = *s.measurements[k];
-    const MatrixXd& J = s.slope[k];
-    const MatrixXd W = J.transpose() * m.information * J;
-    std::vector<int> places;
-    for (const Index v : ends(m)) {
+  std::vector<int> places;
+  MatrixXd W;
+  for (const Spring& spring : s.springs) {
+    W.noalias() = spring.slope.transpose() * (spring.information * spring.slope);
+    places.clear();
+    each_end(spring.of, [&](Index v) {
       for (int i = s.start[v]; i < s.start[v + 1]; ++i) places.push_back(system.place[i]);
-    }
+    });
     for (std::size_t i = 0; i < places.size(); ++i) {
       for (std::size_t j = 0; j < places.size(); ++j) {
         if (places[j] < 0 || places[i] < places[j]) continue;
@@ -121,29 +121,27 @@ double size(const System& system, const VectorXd& gradient) {
   return std::sqrt(sum);
 }
 
-// Its slopes times a step of all vertices.
-VectorXd along(const Settlement& s, std::size_t k, const VectorXd& x) {
-  const std::vector<Index> vertices = ends(*s.measurements[k]);
-  VectorXd own(total_dim(s.at, vertices));
+// Its slope times a step of all vertices.
+VectorXd along(const Settlement& s, const Spring& spring, const VectorXd& x) {
+  VectorXd own(spring.slope.cols());
   int row = 0;
-  for (const Index v : vertices) {
+  each_end(spring.of, [&](Index v) {
     own.segment(row, s.at.dim(v)) = x.segment(s.start[v], s.at.dim(v));
     row += s.at.dim(v);
-  }
-  return s.slope[k] * own;
+  });
+  return spring.slope * own;
 }
 
 // What is owed beyond the gradient that errors J_k x would have, were slopes what they are without errors.
 VectorXd still_owed(const Settlement& s, const VectorXd& owed, const VectorXd& x) {
   VectorXd rest = owed;
-  for (std::size_t k = 0; k < s.measurements.size(); ++k) {
-    const Measurement& m = *s.measurements[k];
-    const VectorXd force = s.slope[k].transpose() * m.information * along(s, k, x);
+  for (const Spring& spring : s.springs) {
+    const VectorXd force = spring.slope.transpose() * (spring.information * along(s, spring, x));
     int row = 0;
-    for (const Index v : ends(m)) {
+    each_end(spring.of, [&](Index v) {
       rest.segment(s.start[v], s.at.dim(v)) -= force.segment(row, s.at.dim(v));
       row += s.at.dim(v);
-    }
+    });
   }
   return rest;
 }
@@ -209,11 +207,11 @@ VectorXd solved(const Moved& moved, const VectorXd& error, const MatrixXd& J,
 
 // Where no measurement has the error, as a rotation has none of more than half a turn, or next to nothing could be told with
 // it, it gets a half of it, or a half of that.
-void set_error(const Settlement& s, std::size_t k, const VectorXd& x) {
-  Measurement& m = *s.measurements[k];
-  const VectorXd whole = along(s, k, x);
+void set_error(const Settlement& s, const Spring& spring, const VectorXd& x, Measurement& m) {
+  const VectorXd whole = along(s, spring, x);
   if (whole.isZero(0)) return;
-  const MatrixXd &J = s.slope[k], own = J.rightCols(s.at.dim(ends(m).back()));
+  const MatrixXd &J = spring.slope,
+                 own = J.rightCols(s.at.dim(m.of.second < 0 ? m.of.first : m.of.second));
   const auto d = J.rows();
   const Moved moved{s.at, m.of,
                     J.transpose() * (J * J.transpose()).llt().solve(MatrixXd::Identity(d, d))};
@@ -234,12 +232,12 @@ void set_error(const Settlement& s, std::size_t k, const VectorXd& x) {
 }
 
 // x, by scalar of all vertices; nothing where nothing moves.
-std::optional<VectorXd> displacement(const Settlement& s, const VectorXd& owed) {
+std::optional<VectorXd> displacement(const Settlement& s, const VectorXd& owed, double rest_of) {
   System system;
   if (!factor_system(s, system)) return std::nullopt;
   const double whole = size(system, owed);
   VectorXd x = VectorXd::Zero(owed.size()), rest = owed;
-  for (int k = 0; k < most_corrections && size(system, rest) > 1e-12 * whole; ++k) {
+  for (int k = 0; k < most_corrections && size(system, rest) > rest_of * whole; ++k) {
     const VectorXd next = x + solved(system, rest), then = still_owed(s, owed, next);
     if (!(size(system, then) < size(system, rest))) break;
     x = next;
@@ -248,29 +246,29 @@ std::optional<VectorXd> displacement(const Settlement& s, const VectorXd& owed) 
   return x;
 }
 
-Settlement settlement(const At& at, std::span<Measurement* const> measurements) {
-  Settlement s{at, measurements, {}, starts_of_all(at), moving(at, measurements)};
-  for (const Measurement* m : measurements) s.slope.push_back(slope(at, m->of));
-  return s;
-}
-
 }  // namespace
 
 void set_errors(const At& at, const VectorXd& owed, std::span<Measurement* const> measurements) {
-  const Settlement s = settlement(at, measurements);
-  const auto x = displacement(s, owed);
+  std::vector<MatrixXd> slopes;
+  slopes.reserve(measurements.size());
+  std::vector<Spring> springs;
+  for (const Measurement* m : measurements) {
+    slopes.push_back(slope(at, m->of));
+    springs.push_back({m->of, slopes.back(), m->information});
+  }
+  const Settlement s{at, springs, starts_of_all(at), moving(at, springs)};
+  const auto x = displacement(s, owed, exactly);
   if (!x) return;
-  for (std::size_t k = 0; k < measurements.size(); ++k) set_error(s, k, *x);
+  for (std::size_t k = 0; k < springs.size(); ++k) set_error(s, springs[k], *x, *measurements[k]);
 }
 
-std::vector<double> strains(const At& at, const VectorXd& owed,
-                            std::span<Measurement* const> measurements) {
-  const Settlement s = settlement(at, measurements);
-  const auto x = displacement(s, owed);
-  std::vector<double> result(measurements.size(), 0);
-  for (std::size_t k = 0; x && k < measurements.size(); ++k) {
-    const VectorXd error = along(s, k, *x);
-    result[k] = error.dot(measurements[k]->information * error) / 2;
+std::vector<double> strains(const At& at, const VectorXd& owed, std::span<const Spring> springs) {
+  const Settlement s{at, springs, starts_of_all(at), moving(at, springs)};
+  const auto x = displacement(s, owed, roughly);
+  std::vector<double> result;
+  for (const Spring& spring : springs) {
+    const VectorXd error = x ? along(s, spring, *x) : VectorXd::Zero(spring.slope.rows());
+    result.push_back(error.dot(spring.information * error) / 2);
   }
   return result;
 }

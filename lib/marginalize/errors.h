@@ -20,8 +20,13 @@ namespace sg::marginalize {
 void set_errors(const At& at, const Eigen::VectorXd& owed,
                 std::span<Measurement* const> measurements);
 
-// Half of r_k' W_k r_k: what each would have of the graph's chi-square at the estimates.
+// A measurement without an error: its slope in the steps of its vertices, and its information.
+struct Spring {
+  const Measurable& of;
+  const Eigen::MatrixXd &slope, &information;
+};
+// Half of r_k' W_k r_k, nearly: what each would have of the graph's chi-square at the estimates.
 std::vector<double> strains(const At& at, const Eigen::VectorXd& owed,
-                            std::span<Measurement* const> measurements);
+                            std::span<const Spring> springs);
 
 }  // namespace sg::marginalize

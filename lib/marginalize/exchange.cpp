@@ -13,7 +13,8 @@
 namespace sg::marginalize {
 namespace {
 
-constexpr int most_turns = 15, patience = 2;
+constexpr double less = 0.25, more = 2;  // of the moves, after a turn that lost and one that gained
+constexpr double fewest = 0.02;
 constexpr int few_steps = 3, most_steps = 30;  // of fitting, within a turn and at last
 constexpr double gap = 0.02;                   // that fitting may leave, in nats
 constexpr double factor_cost = 100;            // of any, beside elimination
@@ -73,16 +74,11 @@ std::vector<bool> indispensable(const Whole& whole, const std::vector<Offer>& of
   return result;
 }
 
-struct Move {
-  Index offer;
-  double gain;  // nats, EC for its price
-};
-
 // All that gain, those that gain most first.
-std::vector<Move> moves(const Whole& whole, double rate, const std::vector<Offer>& offers,
-                        std::span<const double> strain, const graph::Order& order) {
-  std::vector<double> worth = worths(whole, offers);
-  for (std::size_t k = 0; k < worth.size(); ++k) worth[k] += strain[k];
+std::vector<Move> moves(const Whole& whole, double rate, const Exchange& exchange, Rest& all) {
+  const std::vector<Offer>& offers = exchange.offers;
+  std::vector<double> worth = worths(offers, all);
+  for (std::size_t k = 0; k < worth.size(); ++k) worth[k] += exchange.strain[k];
   std::vector<Index> by_worth(offers.size());
   std::iota(by_worth.begin(), by_worth.end(), 0);
   std::ranges::stable_sort(by_worth, std::greater(), [&](Index k) { return worth[k]; });
@@ -95,7 +91,7 @@ std::vector<Move> moves(const Whole& whole, double rate, const std::vector<Offer
   }
   graph::GraphPattern least =
       pattern_left(*whole.at.problem.graph, whole.removed, whole.edge_gone, factors);
-  Prices sheet = prices(least, order, whole.removed, rate);
+  Prices sheet = prices(least, exchange.order, whole.removed, rate);
   const auto cost = [&](Index k) {
     return rate * (elim::to_double(price(sheet, offers[k].of)) + factor_cost);
   };
@@ -115,35 +111,37 @@ std::vector<Move> moves(const Whole& whole, double rate, const std::vector<Offer
   return result;
 }
 
-// Makes those of the moves that share no vertex; returns how many.
-int make(std::span<const Move> moves, const Graph& graph, std::vector<Offer>& offers) {
+// Makes this part of the moves that share no vertex, those that gain most; returns how many.
+std::size_t make(std::span<const Move> moves, double part, const Graph& graph,
+                 std::vector<Offer>& offers) {
   std::vector<bool> touched(graph.vertices(), false);
-  int made = 0;
+  std::vector<Move> apart;
   for (const Move& move : moves) {
-    Offer& offer = offers[move.offer];
-    const std::vector<Index> ends = ends_of(offer.of);
+    const std::vector<Index> ends = ends_of(offers[move.offer].of);
     if (std::ranges::any_of(ends, [&](Index v) { return touched[v]; })) continue;
     for (const Index v : ends) touched[v] = true;
+    apart.push_back(move);
+  }
+  apart.resize(static_cast<std::size_t>(std::ceil(part * static_cast<double>(apart.size()))));
+  for (const Move& move : apart) {
+    Offer& offer = offers[move.offer];
     offer.taken = !offer.taken;
     const auto d = offer.truth.rows();
     if (offer.taken)
       offer.information =
           next_to_nothing * offer.truth.llt().solve(Eigen::MatrixXd::Identity(d, d));
-    ++made;
   }
-  return made;
+  return apart.size();
 }
 
 // Of every offer, 0 of those that are not taken.
 std::vector<double> strains(const Whole& whole, const Eigen::VectorXd& owed,
                             const std::vector<Offer>& offers) {
-  std::vector<Measurement> taken;
+  std::vector<Spring> springs;
   for (const Offer& offer : offers) {
-    if (offer.taken) taken.push_back({offer.of, measured(whole.at, offer.of), offer.information});
+    if (offer.taken) springs.push_back({offer.of, offer.slope, offer.information});
   }
-  std::vector<Measurement*> pointers;
-  for (Measurement& m : taken) pointers.push_back(&m);
-  const std::vector<double> of_taken = strains(whole.at, owed, pointers);
+  const std::vector<double> of_taken = strains(whole.at, owed, springs);
   std::vector<double> result(offers.size(), 0);
   std::size_t next = 0;
   for (std::size_t k = 0; k < offers.size(); ++k) {
@@ -152,42 +150,44 @@ std::vector<double> strains(const Whole& whole, const Eigen::VectorXd& owed,
   return result;
 }
 
+// Fits what is taken, and shows it; returns what it loses and costs, infinite where it is not determined.
+double show(const Terms& terms, int steps, Exchange& exchange) {
+  const graph::Pattern left = pattern_left(terms.whole, exchange.offers).pattern;
+  exchange.order = order::elimination_order("wmf", left);
+  const auto lost = fit(terms.whole, exchange.order, gap, steps, exchange.offers);
+  if (!lost) return std::numeric_limits<double>::infinity();
+  exchange.strain = strains(terms.whole, terms.owed, exchange.offers);
+  const State state{exchange.offers,
+                    elim::to_double(elim::elimination_complexity(left, exchange.order)), *lost,
+                    std::accumulate(exchange.strain.begin(), exchange.strain.end(), 0.0)};
+  terms.see(state);
+  return state.lost + state.strain + terms.rate * state.ec;
+}
+
 }  // namespace
 
-void exchange(const Whole& whole, const Eigen::VectorXd& owed, double rate,
-              std::vector<Offer>& offers, const std::function<void(const State&)>& see) {
-  std::vector<Offer> best;
-  double least = std::numeric_limits<double>::infinity();
-  int without = 0;
-  std::vector<double> strain;
-  graph::Order order;
-  // Shows what there is, fitted; returns what it loses and costs, infinite where it is not determined.
-  const auto show = [&](int steps) {
-    const graph::Pattern left = pattern_left(whole, offers).pattern;
-    order = order::elimination_order("wmf", left);
-    const auto lost = fit(whole, order, gap, steps, offers);
-    if (!lost) return std::numeric_limits<double>::infinity();
-    strain = strains(whole, owed, offers);
-    const State state{offers, elim::to_double(elim::elimination_complexity(left, order)), *lost,
-                      std::accumulate(strain.begin(), strain.end(), 0.0)};
-    see(state);
-    return state.lost + state.strain + rate * state.ec;
-  };
-  for (int turn = 0; turn < most_turns && without <= patience; ++turn) {
-    const double now = show(few_steps);
-    if (std::isinf(now)) break;
-    ++without;
-    if (now < least) {
-      least = now;
-      best = offers;
-      without = 0;
+void advance(const Terms& terms, int turns, Rest& all, Exchange& exchange) {
+  for (int turn = 0; turn < turns && !exchange.over; ++turn) {
+    const double now = show(terms, few_steps, exchange);
+    if (now < exchange.least) {
+      exchange.least = now;
+      exchange.best = exchange.offers;
+      exchange.moves = moves(terms.whole, terms.rate, exchange, all);
+      exchange.part = std::min(1.0, more * exchange.part);
+    } else {
+      exchange.offers = exchange.best;
+      exchange.part *= less;
     }
-    if (make(moves(whole, rate, offers, strain, order), *whole.at.problem.graph, offers) == 0)
-      break;
+    exchange.over =
+        exchange.best.empty() || exchange.part < fewest ||
+        make(exchange.moves, exchange.part, *terms.whole.at.problem.graph, exchange.offers) == 0;
   }
-  if (best.empty()) return;
-  offers = std::move(best);
-  show(most_steps);
+}
+
+void settle(const Terms& terms, Exchange& exchange) {
+  if (exchange.best.empty()) return;
+  exchange.offers = std::move(exchange.best);
+  show(terms, most_steps, exchange);
 }
 
 }  // namespace sg::marginalize

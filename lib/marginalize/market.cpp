@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -11,15 +13,18 @@
 namespace sg::marginalize {
 namespace {
 
-constexpr std::string_view ordering = "wmf";  // that EC is priced in
-constexpr double rough = 0.1;                 // gap of what is fitted later
+constexpr std::string_view ordering = "wmf";                    // that EC is priced in
+constexpr RecoveryOptions rough{.sweeps = 4, .barrier = 1e-3};  // what is fitted later
 constexpr int bracketings = 5, bisections = 6;
 constexpr double step = 8;  // of prices, as long as none on the other side is known
+constexpr int first_turns = 4,
+              further_turns = 11;  // of exchange, from each start and from the better
 
+// A draft that need not be written out.
 struct Priced {
-  Draft draft;
   double ec;
-  double strain = 0;  // exchange.h
+  double lost;  // with its strain (exchange.h)
+  const std::function<Draft()>& draft;
 };
 
 double complexity(const graph::Pattern& pattern) {
@@ -46,13 +51,13 @@ graph::GraphPattern pattern_of(const Market& market, const Draft& draft) {
 
 // A pass at a price, in the order of a pass before it.
 Draft pass_at(const Market& market, double rate) {
-  const auto pass = [&](const graph::Order& order, double gap) {
+  const auto pass = [&](const graph::Order& order, const RecoveryOptions& how) {
     Prices sheet = prices(market.left, order, market.removed, rate);
-    return one_pass(market.at, market.removed, market.rule, &sheet, market.progress, gap);
+    return one_pass(market.at, market.removed, market.rule, &sheet, market.progress, how);
   };
   const Draft first = pass(market.order, rough);
   const graph::Order order = order::elimination_order(ordering, pattern_of(market, first).pattern);
-  return pass(order, market.rule.conservative ? RecoveryOptions{}.gap : rough);
+  return pass(order, market.rule.conservative ? RecoveryOptions{} : rough);
 }
 
 // The measurements of some drafts, those of the same vertices once.
@@ -95,59 +100,83 @@ Draft drafted(const Market& market, const Draft& start, const std::vector<Offer>
   return draft;
 }
 
-// What is worth it at a price; all that was met on the way is shown to `see`.
+// What is worth it at a price; all that was met on the way is shown to `see`, with the price of a unit of EC.
 void look(const Market& market, double price, const auto& see) {
   const double rate = price * market.unit;
   const Draft pass = pass_at(market, rate);
   bool any = false;
-  if (!market.rule.conservative) {
-    const Whole rest(market.at, market.removed, pass.edge_gone);
-    const Draft* const drafts[] = {&market.trees, &pass};
-    auto there = offered(rest, all_of(drafts));
-    for (const Draft* start : drafts) {
-      if (!there) break;
-      take(*start, there->offers);
-      exchange(rest, start->owed, rate, there->offers, [&](const State& state) {
-        any = true;
-        see(Priced{drafted(market, *start, state.offers, state.lost + there->constant), state.ec,
-                   state.strain},
-            rate);
-      });
-    }
-  }
-  if (!any) see(Priced{pass, complexity(pattern_of(market, pass).pattern)}, rate);
-}
-
-double lost(const Priced& found) {
-  return found.draft.divergence + found.strain;
+  const auto see_pass = [&] {
+    see(Priced{complexity(pattern_of(market, pass).pattern), pass.divergence, [&] { return pass; }},
+        rate);
+  };
+  const Draft* const drafts[] = {&market.trees, &pass};
+  const Whole rest(market.at, market.removed, pass.edge_gone);
+  auto there = market.rule.conservative ? std::nullopt : offered(rest, all_of(drafts));
+  if (!there) return see_pass();
+  const auto terms = [&](const Draft& start) -> Terms {
+    return {rest, start.owed, rate, [&](const State& state) {
+              any = true;
+              const double lost = state.lost + there->constant;
+              see(Priced{state.ec, lost + state.strain,
+                         [&] { return drafted(market, start, state.offers, lost); }},
+                  rate);
+            }};
+  };
+  std::vector<const Offer*> pointers;
+  for (const Offer& offer : there->offers) pointers.push_back(&offer);
+  Rest all(rest, pointers, [](const graph::Pattern& pattern) {
+    return order::elimination_order(ordering, pattern);
+  });
+  Exchange of_trees{there->offers}, of_pass{std::move(there->offers)};
+  take(market.trees, of_trees.offers);
+  take(pass, of_pass.offers);
+  advance(terms(market.trees), first_turns, all, of_trees);
+  advance(terms(pass), first_turns, all, of_pass);
+  const bool trees = of_trees.least < of_pass.least;
+  (trees ? of_pass : of_trees) = {};
+  Exchange& better = trees ? of_trees : of_pass;
+  const Terms on = terms(trees ? market.trees : pass);
+  advance(on, further_turns, all, better);
+  settle(on, better);
+  if (!any) see_pass();  // nothing that was taken would determine all
 }
 
 Draft best_at(const Market& market, double price) {
-  std::optional<Priced> best;
-  look(market, price, [&](Priced found, double rate) {
-    if (!best || lost(found) + rate * found.ec < lost(*best) + rate * best->ec)
-      best = std::move(found);
+  std::optional<Draft> best;
+  double least = std::numeric_limits<double>::infinity();
+  look(market, price, [&](const Priced& found, double rate) {
+    const double now = found.lost + rate * found.ec;
+    if (best && !(now < least)) return;
+    least = now;
+    best = found.draft();
   });
-  return std::move(best->draft);
+  return std::move(*best);
 }
 
 // What loses least within an EC of all that is met while prices close in on it; else the least EC.
 Draft best_within(const Market& market, double ec) {
   double price = 1, dear = 0, cheap = 0;  // 0: not known yet
-  std::optional<Priced> best, least;
+  std::optional<Draft> best;
+  double best_lost = 0, best_ec = std::numeric_limits<double>::infinity();
   for (int k = 0; k < bracketings + bisections; ++k) {
     if (k >= bracketings && (dear == 0 || cheap == 0)) break;
-    std::optional<Priced> here;
-    look(market, price, [&](Priced found, double rate) {
-      if (found.ec <= ec && (!best || lost(found) < lost(*best))) best = found;
-      if (!least || found.ec < least->ec) least = found;
-      if (!here || lost(found) + rate * found.ec < lost(*here) + rate * here->ec)
-        here = std::move(found);
+    double least = std::numeric_limits<double>::infinity(), ec_here = 0;
+    look(market, price, [&](const Priced& found, double rate) {
+      const bool within = found.ec <= ec, first = !best || (within && best_ec > ec);
+      if (first || (within ? found.lost < best_lost : found.ec < best_ec && best_ec > ec)) {
+        best = found.draft();
+        best_lost = found.lost;
+        best_ec = found.ec;
+      }
+      const double now = found.lost + rate * found.ec;
+      if (ec_here > 0 && !(now < least)) return;
+      least = now;
+      ec_here = found.ec;
     });
-    (here->ec <= ec ? dear : cheap) = price;
+    (ec_here <= ec ? dear : cheap) = price;
     price = dear == 0 ? price * step : cheap == 0 ? price / step : std::sqrt(dear * cheap);
   }
-  return std::move((best ? best : least)->draft);
+  return std::move(*best);
 }
 
 }  // namespace

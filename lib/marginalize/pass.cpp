@@ -15,7 +15,7 @@ struct Pass {
   Live live;
   const Rule& rule;
   Prices* prices;  // of topology ec
-  double gap;      // of what is recovered
+  RecoveryOptions how;
   double divergence = 0;
 };
 
@@ -93,8 +93,7 @@ void make_sparse(Pass& pass, const Piece& piece, std::span<const Index> cluster)
   }
   std::vector<MatrixXd> slopes;
   for (const Index k : chosen) slopes.push_back(spread(around, pairs[k]));
-  Recovery recovery =
-      recover(slopes, around.covariance, {.conservative = pass.rule.conservative, .gap = pass.gap});
+  Recovery recovery = recover(slopes, around.covariance, pass.how);
   pass.divergence += recovery.divergence;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const Measurable& of = pairs[chosen[k]].of;
@@ -129,8 +128,9 @@ void check_types(const Live& live, std::span<const std::vector<Index>> clusters)
 }  // namespace
 
 Draft one_pass(const At& at, const std::vector<bool>& removed, const Rule& rule, Prices* prices,
-               const Progress& progress, double gap) {
-  Pass pass{live_graph(at), rule, prices, gap};
+               const Progress& progress, const RecoveryOptions& how) {
+  Pass pass{live_graph(at), rule, prices, how};
+  pass.how.conservative = rule.conservative;
   Live& live = pass.live;
   const auto all =
       clusters(*at.problem.graph, removed, rule.linear ? Clusters::global : rule.clusters);

@@ -28,10 +28,10 @@ struct Draft {
 
 using Progress = std::function<void(Index)>;
 
-// `removed` of every vertex. prices: of topology ec. gap: of recoveries (recover.h).
+// `removed` of every vertex. prices: of topology ec. how: what is recovered, but for what the rule says.
 Draft one_pass(const At& at, const std::vector<bool>& removed, const Rule& rule,
                Prices* prices = nullptr, const Progress& progress = {},
-               double gap = RecoveryOptions{}.gap);
+               const RecoveryOptions& how = {});
 
 // The vertices of a measurement, ascending.
 std::vector<Index> ends_of(const Measurable& of);

@@ -15,7 +15,7 @@ using Eigen::LLT;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double first_barrier = 0.1, shrink = 0.0215, last_barrier = 5e-12;
+constexpr double first_barrier = 0.1, shrink = 0.0215;
 constexpr int most_steps = 30;  // of Newton, for one barrier
 
 // The problem in coordinates of its own: S = I and J_k J_k' = I. Then A_k = I, and the unknown V_k is W_k as a multiple
@@ -183,12 +183,11 @@ void minimize(const Scaled& problem, const RecoveryOptions& options, double barr
   }
 }
 
-constexpr int most_sweeps = 1000;
 constexpr double next_to_nothing = 1e-10;  // of a tree's: nothing would not be positive definite
 // Sets every block in turn to its best beside the others.
-void fit_in_turn(const Scaled& problem, double gap, Blocks& V) {
+void fit_in_turn(const Scaled& problem, const RecoveryOptions& options, Blocks& V) {
   const auto m = static_cast<double>(problem.m);
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
     MatrixXd P =
         LLT<MatrixXd>(information(problem, V)).solve(MatrixXd::Identity(problem.m, problem.m));
     double excess = 0, trace = 0;
@@ -210,7 +209,7 @@ void fit_in_turn(const Scaled& problem, double gap, Blocks& V) {
           PJ * (MatrixXd::Identity(d, d) + more * B).partialPivLu().solve(more) * PJ.transpose();
       V[k] = next;
     }
-    if (trace - m + excess * m < gap) return;  // of what it was before this sweep
+    if (trace - m + excess * m < options.gap) return;  // of what it was before this sweep
   }
 }
 
@@ -234,7 +233,7 @@ Recovery recover(std::span<const MatrixXd> slopes, const MatrixXd& covariance,
   const bool closed_form = rows == problem.m && !options.conservative && options.penalty == 0;
   const bool plain = !options.conservative && options.penalty == 0 && !options.multiples;
   if (plain && !closed_form && unknowns(V, false).size() > most_unknowns) {
-    fit_in_turn(problem, options.gap, V);
+    fit_in_turn(problem, options, V);
   } else if (!closed_form) {
     // Each J_k' J_k is a projection: with less than one over their number, the sum is below I.
     const double start = options.conservative
@@ -242,7 +241,7 @@ Recovery recover(std::span<const MatrixXd> slopes, const MatrixXd& covariance,
                              : static_cast<double>(problem.m) / static_cast<double>(rows);
     for (MatrixXd& block : V) block *= start;
     double before = first_barrier;
-    for (double barrier = first_barrier; barrier > last_barrier; barrier *= shrink) {
+    for (double barrier = first_barrier; barrier > options.barrier; barrier *= shrink) {
       minimize(problem, options, barrier, before, V);
       before = barrier;
     }

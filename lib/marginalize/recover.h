@@ -37,6 +37,8 @@ struct RecoveryOptions {
   double penalty = 0;         // times sum_k tr(W_k A_k) is minimized, too: how dear pairs are
   bool multiples = false;     // W_k = w_k A_k^-1, one unknown a pair
   double gap = 1e-4;          // that each W_k in turn may leave of twice the divergence
+  int sweeps = 1000;          // of each in turn, at most
+  double barrier = 5e-12;     // r at last: what Newton's method may leave for every row of all J_k
 };
 
 constexpr std::size_t most_unknowns =

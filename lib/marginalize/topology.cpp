@@ -19,6 +19,8 @@ using Eigen::VectorXd;
 
 constexpr std::array<std::string_view, 6> names{"dense", "tree", "subgraph", "l1", "seif", "ec"};
 
+constexpr double least_share = 1e-3;  // l1: of what a tree's measurement has, for a pair to count
+
 // What is added to the information of a direction that nothing is known of, as a part of its diagonal.
 constexpr double next_to_nothing = 1e-9;
 
@@ -55,7 +57,8 @@ MatrixXd covariance_of(const Pair& pair, const MatrixXd& covariance) {
 }
 
 // Calls pair(u, v) for every two vertices that could be measured together, and pair(v, -1) for every one that could be
-// alone. Landmarks pair with each other only where there is no pose.
+// alone. Landmarks pair with each other only where there is no pose, and where the piece tells which way the world turns: the
+// vector between them would.
 void for_pairs(const At& at, std::span<const Index> vertices, bool absolute, const auto& pair) {
   const bool poses = std::ranges::any_of(vertices, [&](Index v) { return is_pose(at, v); });
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -64,7 +67,7 @@ void for_pairs(const At& at, std::span<const Index> vertices, bool absolute, con
     }
     for (std::size_t j = i + 1; j < vertices.size(); ++j) {
       const Index u = vertices[i], v = vertices[j];
-      if (poses && !is_pose(at, u) && !is_pose(at, v)) continue;
+      if (!is_pose(at, u) && !is_pose(at, v) && (poses || !absolute)) continue;
       if (const auto of = between(at, u, v)) pair(*of);
     }
   }
@@ -107,15 +110,16 @@ std::vector<Index> penalized(const Blanket& blanket, const std::vector<Pair>& pa
   offered.insert(offered.begin(), tree.pairs.begin(), tree.pairs.end());
   std::vector<MatrixXd> slopes;
   for (const Index k : offered) slopes.push_back(spread(blanket, pairs[k]));
-  const Recovery recovered = recover(slopes, blanket.covariance,
-                                     {.conservative = true, .penalty = penalty, .multiples = true});
+  const Recovery recovered = recover(
+      slopes, blanket.covariance,
+      {.conservative = true, .penalty = penalty, .multiples = true, .barrier = 1e-3 * least_share});
   std::vector<double> share(pairs.size(), 0);
   for (std::size_t i = 0; i < offered.size(); ++i) {
     const MatrixXd& A = pairs[offered[i]].covariance;
     share[offered[i]] = (recovered.information[i] * A).trace() / static_cast<double>(A.rows());
   }
   std::vector<Index> result = others(pairs, tree);
-  std::erase_if(result, [&](Index k) { return share[k] < 1e-3; });
+  std::erase_if(result, [&](Index k) { return share[k] < least_share; });
   return first_few(std::move(result), tree, share);
 }
 

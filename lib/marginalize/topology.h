@@ -43,7 +43,7 @@ struct Pair {
 // Its slope in all steps of the blanket.
 Eigen::MatrixXd spread(const Blanket& blanket, const Pair& pair);
 // Every pair with a measurement of full rank, and where the piece is absolute a prior of every vertex. Landmarks pair
-// with each other only where there is no pose.
+// with each other only where there is no pose and the piece is absolute: what poses have told of them turns with the whole.
 std::vector<Pair> candidate_pairs(const At& at, const Piece& piece, const Blanket& blanket);
 
 // The spanning tree of the least sum of log det covariance: of all trees of these measurements the one whose recovered

@@ -14,17 +14,19 @@
 // where the others stay as they are.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "lib/factor/linearize.h"
 #include "lib/marginalize/pass.h"
+#include "lib/solve/eliminate.h"
 
 namespace sg::marginalize {
 
 // A measurement that could be taken.
 struct Offer {
   Measurable of;
-  Eigen::MatrixXd slope;        // J, in the steps of its vertices that vary, ascending
+  Eigen::MatrixXd slope;        // J, in the steps of its vertices (measurement.h)
   Eigen::MatrixXd truth;        // A
   Eigen::MatrixXd information;  // W, where it is taken
   bool taken = false;
@@ -50,14 +52,28 @@ struct Offered {
 // Nothing where the graph leaves variables undetermined.
 std::optional<Offered> offered(const Whole& whole, std::span<const Measurable> of);
 
+// What is left with some of what is offered: a row for every edge that stays, for every offer, and for what is held.
+struct Rest {
+  graph::GraphPattern left;
+  factor::LinearSystem rows;    // with the offers' whitened slopes
+  factor::LinearSystem slopes;  // with their slopes, and zeros
+  Index first = 0;              // row of the first offer
+  solve::Elimination elimination;
+
+  Rest(const Whole& whole, std::span<const Offer* const> offers,
+       const std::function<graph::Order(const graph::Pattern&)>& order);
+  Rest(const Rest&) = delete;
+};
+
 // Sets the informations of all that is taken to the best: until no more than about `gap` nats could be gained, or `steps`
-// are done. order: of what is left (pattern_left). Returns the divergence but for a constant, in nats; nothing where what is taken leaves variables
-// undetermined.
+// are done. order: of what is left (pattern_left). Returns the divergence but for a constant, in nats; nothing where what
+// is taken leaves variables undetermined.
 std::optional<double> fit(const Whole& whole, const graph::Order& order, double gap, int steps,
                           std::vector<Offer>& offers);
 
-// What each is worth, in nats: infinite where nothing else would determine what it does.
-std::vector<double> worths(const Whole& whole, const std::vector<Offer>& offers);
+// What each is worth, in nats: infinite where nothing else would determine what it does. all: with all of them, in their
+// order; it is planned once for all turns, as it does not depend on which of them are taken.
+std::vector<double> worths(const std::vector<Offer>& offers, Rest& all);
 
 // What is left with those that are taken.
 graph::GraphPattern pattern_left(const Whole& whole, const std::vector<Offer>& offers);

@@ -120,6 +120,12 @@ struct Case {
     const std::vector<int> stay = scalars();
     return Q(stay, stay);
   }
+  marginalize::Rest with_all() const {
+    std::vector<const marginalize::Offer*> all;
+    for (const marginalize::Offer& offer : offered.offers) all.push_back(&offer);
+    return {whole, all,
+            [](const graph::Pattern& p) { return sg::order::elimination_order("wmf", p); }};
+  }
   double divergence(const std::vector<marginalize::Offer>& offers) const {
     const MatrixXd Q = left(offers), product = Q * truth();
     const double determinant = product.determinant();
@@ -127,6 +133,12 @@ struct Case {
     return (product.trace() - static_cast<double>(Q.rows()) - std::log(determinant)) / 2;
   }
 };
+
+std::vector<bool> taken_of(const std::vector<marginalize::Offer>& offers) {
+  std::vector<bool> result;
+  for (const marginalize::Offer& offer : offers) result.push_back(offer.taken);
+  return result;
+}
 
 std::string text_of(Random& random, int seed) {
   return random_text(random, {.plane = seed % 2 == 0,
@@ -187,7 +199,17 @@ TEST_CASE("a worth is what goes with a measurement, or comes with it", "[margina
       offer.information = offer.truth.inverse() / 3;
     }
     const double before = test.divergence(offers);
-    const std::vector<double> worth = marginalize::worths(test.whole, offers);
+    marginalize::Rest all = test.with_all();
+    const std::vector<double> worth = marginalize::worths(offers, all);
+    {  // What is planned once is of any that are taken.
+      std::vector<marginalize::Offer> others = offers;
+      for (marginalize::Offer& offer : others) {
+        if (offer.taken && draw(random, 0, 3) == 0) offer.taken = false;
+      }
+      marginalize::Rest fresh = test.with_all();
+      CHECK(marginalize::worths(others, all) == marginalize::worths(others, fresh));
+      CHECK(marginalize::worths(offers, all) == worth);
+    }
     for (std::size_t k = 0; k < offers.size(); ++k) {
       std::vector<marginalize::Offer> other = offers;
       other[k].taken = !other[k].taken;
@@ -239,8 +261,23 @@ TEST_CASE("measurements come and go, and every state is what it is said to be", 
     const double rate = seed % 3 == 0 ? 1e-9 : seed % 3 == 1 ? 1e-4 : 1;
     double first = 0, least = std::numeric_limits<double>::infinity(), last = 0;
     int states = 0;
+    marginalize::Exchange exchange{offers};
     const VectorXd none = VectorXd::Zero(test.trees.owed.size());
-    marginalize::exchange(test.whole, none, rate, offers, [&](const marginalize::State& state) {
+    bool settling = false;
+    const auto see = [&](const marginalize::State& state) {
+      // Every turn starts from the best, and makes the first of the moves that share no vertex.
+      std::size_t moved = 0, apart = 0;
+      for (std::size_t k = 0; k < exchange.best.size(); ++k)
+        moved += state.offers[k].taken != exchange.best[k].taken;
+      std::vector<bool> touched(test.full.graph.vertices(), false);
+      for (const marginalize::Move& move : exchange.moves) {
+        const auto ends = marginalize::ends_of(offers[move.offer].of);
+        if (std::ranges::any_of(ends, [&](Index v) { return touched[v]; })) continue;
+        for (const Index v : ends) touched[v] = true;
+        ++apart;
+      }
+      CHECK(static_cast<double>(moved) ==
+            (settling ? 0 : std::ceil(exchange.part * static_cast<double>(apart))));
       const graph::Pattern left = marginalize::pattern_left(test.whole, state.offers).pattern;
       CHECK(state.ec == elim::to_double(elim::elimination_complexity(
                             left, order::elimination_order("wmf", left))));
@@ -251,7 +288,24 @@ TEST_CASE("measurements come and go, and every state is what it is said to be", 
       last = state.lost + rate * state.ec;
       if (states++ == 0) first = last;
       least = std::min(least, last);
-    });
+    };
+    const marginalize::Terms terms{test.whole, none, rate, see};
+    marginalize::Rest all = test.with_all();
+    marginalize::advance(terms, 1, all, exchange);
+    // Cut short, it has its best all the same.
+    marginalize::Exchange cut = exchange;
+    settling = true;
+    marginalize::settle(terms, cut);
+    CHECK(taken_of(cut.offers) == taken_of(exchange.best));
+    settling = false;
+    // In parts, as if nothing had been between them.
+    marginalize::advance(terms, 1, all, exchange);
+    marginalize::advance(terms, 13, all, exchange);
+    const std::vector<bool> best = taken_of(exchange.best);
+    settling = true;
+    marginalize::settle(terms, exchange);
+    CHECK(taken_of(exchange.offers) == best);
+    offers = exchange.offers;
     REQUIRE(states > 0);
     CHECK(last <= least + 1e-9);
     CHECK(last <= first + 1e-9);
@@ -312,6 +366,23 @@ TEST_CASE("errors bring what is owed, however large they have to be", "[marginal
       return sum;
     };
     const MatrixXd before = known();
+    // Of the errors J x, with x of all vertices but the first.
+    const int rest = static_cast<int>(owed.size()) - at.dim(0);
+    VectorXd x = VectorXd::Zero(owed.size());
+    x.tail(rest) = before.bottomRightCorner(rest, rest).ldlt().solve(owed.tail(rest));
+    std::vector<MatrixXd> slopes;
+    for (const marginalize::Measurement& m : all) slopes.push_back(marginalize::slope(at, m.of));
+    std::vector<marginalize::Spring> springs;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      springs.push_back({all[k].of, slopes[k], all[k].information});
+    const std::vector<double> strain = marginalize::strains(at, owed, springs);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const int first = at.dim(all[k].of.first), second = at.dim(all[k].of.second);
+      VectorXd own(first + second);
+      own << x.segment(start[all[k].of.first], first), x.segment(start[all[k].of.second], second);
+      const VectorXd error = slopes[k] * own;
+      CHECK(strain[k] == Approx(error.dot(all[k].information * error) / 2).epsilon(1e-3));
+    }
     marginalize::set_errors(at, owed, pointers);
     CHECK((known() - before).norm() < 1e-8 * before.norm());
     VectorXd given = VectorXd::Zero(owed.size());

@@ -121,6 +121,11 @@ END
   fails 2 "sg-marg: --ids 0: a FIX line holds this vertex: it is a constant (see sg-marg --help)" sg-marg --ids 0 walk.g2o
   fails 2 "sg-marg: --ids 7: the graph has no such vertex (see sg-marg --help)" sg-marg --ids 7 walk.g2o
   fails 2 "sg-marg: --ids nofile is neither a list of ids nor a file that can be read (see sg-marg --help)" sg-marg --ids nofile walk.g2o
+  fails 2 "sg-marg: --ids . is neither a list of ids nor a file that can be read (see sg-marg --help)" sg-marg --ids . walk.g2o
+  printf '1 x\n' >ids
+  fails 2 "sg-marg: --ids ids: x is no range FIRST:LAST (see sg-marg --help)" sg-marg --ids ids walk.g2o
+  printf '1 7\n' >ids
+  fails 2 "sg-marg: --ids ids: 7: the graph has no such vertex (see sg-marg --help)" sg-marg --ids ids walk.g2o
   [ "$(sg-marg --older-than 9 walk.g2o | awk '/^VERTEX/ {print $2}')" = 0 ]
 }
 
@@ -129,6 +134,7 @@ END
   fails 2 "sg-marg: --as factors is of --topology dense: a sparse one has poses (see sg-marg --help)" sg-marg -r 2 --as factors walk.g2o
   fails 2 "sg-marg: --price has no effect but with --topology ec (see sg-marg --help)" sg-marg -r 2 --price 2 walk.g2o
   fails 2 "sg-marg: --landmarks wants all, or a number of observations, not 'few' (see sg-marg --help)" sg-marg --landmarks few walk.g2o
+  fails 2 "sg-marg: --landmarks wants all, or a number of observations, not '-2' (see sg-marg --help)" sg-marg --landmarks -2 walk.g2o
   grep -v VERTEX walk.g2o | grep -v FIX >edges.g2o
   fails 1 "sg-marg: edges.g2o: there are no VERTEX lines, hence no estimates to linearize at (sg-solve adds them)" \
     sg-marg -r 2 edges.g2o
@@ -150,6 +156,10 @@ END
     sg-marg --ids 1 pixels.g2o -o out.g2o
   [ ! -e out.g2o ]
   sg-marg --ids 1 --topology dense pixels.g2o | grep -q '^EDGE_LINEAR_RELATIVE 0 1 2 '
+  # What a camera alone told of points turns with the whole, and a vector between two would not.
+  cp "$TESTDATA/desk.bal" .
+  fails 1 "sg-marg: desk.bal:67: vertex 1 of this EDGE_OBSERVATION_BAL cannot be taken out: no measurement between two vertices would say where VERTEX_XYZ 20 is beside its other neighbours (--topology dense leaves a linear factor)" \
+    sg-marg --ids 1 desk.bal
   printf 'VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_LINE2D 2 0 1\nEDGE_SE2_LINE2D 0 2 0 1 1 0 1\n' >line.g2o
   fails 1 "sg-marg: line.g2o:3: VERTEX_LINE2D has no measurement model here" sg-marg --ids 2 line.g2o
 }
