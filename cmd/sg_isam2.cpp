@@ -294,8 +294,6 @@ void run_file(const cmd::Command& command, const Options& options, const std::st
   for (const std::string& ordering : options.orderings) {
     solve::Isam2Options isam = options.isam;
     isam.ordering = ordering;
-    // What leaves is told clique by clique, as the Bayes tree has them.
-    if (lets_go(options)) isam.relaxed_from = solve::never;
     if (!options.order_budget.empty())
       isam.order_budget = order::parse_budget(options.order_budget, "--order-budget");
     solve::WindowOptions window = options.window;

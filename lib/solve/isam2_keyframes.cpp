@@ -58,8 +58,13 @@ Index best_link(const Isam2Replay& replay, Index v, std::span<const Index> rows)
 
 // Row r is one of pose `to` from now on, and none of pose `from`.
 void change_row(Isam2Replay& replay, Index r, Index from, Index to) {
-  std::erase(replay.isam.rows_of[variable_of(replay, from)], r);
-  replay.isam.rows_of[variable_of(replay, to)].push_back(r);
+  Isam2& isam = replay.isam;
+  if (isam.changed_rows.empty()) {
+    for (Index j = 0; j < isam.columns.size(); ++j)
+      isam.changed_rows.emplace_back(isam.columns[j].begin(), isam.columns[j].end());
+  }
+  std::erase(isam.changed_rows[variable_of(replay, from)], r);
+  isam.changed_rows[variable_of(replay, to)].push_back(r);
 }
 
 double freed_at(const Isam2& isam, Index c, Index j, bool frontal) {
@@ -113,7 +118,7 @@ bool can_be_composed(const Isam2Replay& replay, Index k, int min_obs) {
   if (j < 0 || j == replay.problem->held || isam.tree.variable_clique[j] < 0 || isam.pinned[j])
     return false;
   bool tied = false;
-  for (Index r : isam.rows_of[j]) {
+  for (Index r : rows_of(isam, j)) {
     if (enters(isam, r)) return false;
     if (isam.tree.row_clique[r] < 0) continue;
     if (is_link(replay, r)) {

@@ -119,7 +119,7 @@ void settle_landmarks(Isam2Window& window, std::span<const Index> landmarks) {
     if (j < 0 || window.left[v] || isam.tree.variable_clique[j] < 0) continue;
     int count = 0, height = 0;
     Index last = -1;
-    for (Index r : isam.rows_of[j]) {
+    for (Index r : rows_of(isam, j)) {
       if (isam.tree.row_clique[r] < 0 && !enters(isam, r)) continue;
       ++count;
       height += factor::block_rows(*replay.problem, r);
@@ -128,7 +128,7 @@ void settle_landmarks(Isam2Window& window, std::span<const Index> landmarks) {
     }
     const bool few = count < window.min_obs || height < pattern_of(isam).dim[j];
     const bool comes =
-        std::ranges::any_of(isam.rows_of[j], [&](Index r) { return enters(isam, r); });
+        std::ranges::any_of(rows_of(isam, j), [&](Index r) { return enters(isam, r); });
     if (!few || comes || isam.pinned[j]) {
       if (last >= 0) window.last_seen[v] = last;
       continue;

@@ -179,6 +179,8 @@ Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options
   if (composes(window)) window.keyframes.own = rewritable(problem);
   window.replay = make_isam2_replay(window.keyframes.own ? window.keyframes.own->problem : problem,
                                     isam, min_obs, start_from_file);
+  // Where every row is priced, by the cliques.
+  if (options.spend == Spend::measurements) leave_cliques_apart(window.replay.isam);
   window.renewal = {.factor = options.renew, .budget = options.budget};
   window.min_obs = min_obs;
   const Graph& graph = *problem.graph;
