@@ -227,7 +227,7 @@ void add_options(cmd::Command& command, Options& options) {
 void summarize(const cmd::Command& command, const Options& options, const isam2::Summary& summary,
                const solve::Isam2Window& window) {
   if (!lets_go(options) && options.truth.empty()) return;
-  for (const std::string& line : isam2::lines(summary, window.dropped, has_budget(options)))
+  for (const std::string& line : isam2::lines(summary, window, has_budget(options)))
     cmd::warn(command, line);
 }
 
