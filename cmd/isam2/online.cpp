@@ -91,7 +91,8 @@ std::vector<std::string> lines(const Summary& summary, const solve::Isam2Window&
                      " max " + cmd::text(*std::ranges::max_element(summary.error)));
   }
   if (window.dropped > 0)
-    result.push_back(std::to_string(window.dropped) + " edges named what had left, and were dropped");
+    result.push_back(std::to_string(window.dropped) +
+                     " edges named what had left, and were dropped");
   if (budget && window.working > 0)
     result.push_back("choosing: " + cmd::text(window.choosing / window.working) +
                      " of the time of the steps");

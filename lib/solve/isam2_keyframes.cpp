@@ -233,7 +233,8 @@ void place_composed(Isam2Replay& replay, Keyframes& keyframes) {
     // A stretch of them, and the poses on either side.
     const Index before = composed[i] - 1;
     std::size_t end = i;
-    while (end < composed.size() && composed[end] - composed[i] == static_cast<Index>(end - i)) ++end;
+    while (end < composed.size() && composed[end] - composed[i] == static_cast<Index>(end - i))
+      ++end;
     const Index behind = composed[end - 1] + 1;
     const bool between = before >= 0 && behind < static_cast<Index>(replay.poses.pose.size()) &&
                          is_there(replay, replay.poses.pose[before]) &&

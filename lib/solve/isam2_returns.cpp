@@ -32,8 +32,7 @@ double expected_edges(const Returns& returns, Index age) {
   double sum = 0;
   for (int k = own; k < Returns::classes; ++k) {
     // Of its own class the part that is older.
-    const double share =
-        k > own ? 1 : (first_age(k + 1) - age) / (first_age(k + 1) - first_age(k));
+    const double share = k > own ? 1 : (first_age(k + 1) - age) / (first_age(k + 1) - first_age(k));
     sum += std::clamp(share, 0.0, 1.0) * returns.edges[k];
   }
   return returns.steps > 0 ? sum / returns.steps : 0;

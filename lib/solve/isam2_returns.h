@@ -12,7 +12,7 @@
 namespace sg::solve {
 
 struct Returns {
-  static constexpr int classes = 48;  // of age: two to a doubling
+  static constexpr int classes = 48;    // of age: two to a doubling
   std::array<double, classes> edges{};  // that named such an age, faded
   double steps = 0;                     // faded
 };

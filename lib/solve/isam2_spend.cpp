@@ -1,10 +1,8 @@
 #include "lib/solve/isam2_spend.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "lib/solve/isam2_admit.h"
 #include "lib/solve/isam2_leave.h"
 
 namespace sg::solve {
@@ -17,18 +15,6 @@ constexpr Index least_age = 3;
 constexpr double few_returns = 0.1;
 // Where poses are composed, so much more than is needed: it takes the way to the root apart.
 constexpr double slack = 0.02;
-// A closure is refused below this share of the rate at which room is made: what it is worth is known once alone, and never
-// again when it has been refused.
-constexpr double caution = 0.1;
-// Of the rate at which room was made, a step later in which none had to be.
-constexpr double fading = 0.99;
-
-// How old what edge e, of this step, names is.
-Index age(const Isam2Window& window, Index e) {
-  const auto& ages = window.spending.ages;
-  const auto found = std::ranges::find(ages, e, &std::pair<Index, Index>::first);
-  return found == ages.end() ? 0 : found->second;
-}
 
 bool is_observation(const Isam2Replay& replay, Index r) {
   const Graph& graph = *replay.problem->graph;
@@ -45,8 +31,7 @@ bool observations_outweigh(const Isam2Window& window, Index k) {
   int observations = 0;
   for (Index r : rows_in(replay.isam, variable_of(replay, replay.poses.pose[oldest])))
     observations += is_observation(replay, r) ? 1 : 0;
-  return window.keyframes.stands_for[oldest] *
-             expected_edges(window.spending.returns, k - oldest) <
+  return window.keyframes.stands_for[oldest] * expected_edges(window.spending.returns, k - oldest) <
          few_returns * observations;
 }
 
@@ -131,45 +116,14 @@ void compose(Isam2Window& window, Index pose) {
 
 }  // namespace
 
-void refuse_closures(Isam2Window& window, Entering& entering, Index k) {
-  if (!(window.spending.rate > 0) || k < 1) return;
-  Isam2Replay& replay = window.replay;
-  Isam2& isam = replay.isam;
-  const auto& variable = replay.problem->variables.vertex_variable;
-  const Index newest = variable[replay.poses.pose[k]], before = variable[replay.poses.pose[k - 1]];
-  if (before < 0 || isam.tree.variable_clique[before] < 0) return;
-  const auto is_odometry = [&](Index r) {
-    const auto row = pattern_of(isam).rows[r];
-    return row.size() == 2 && std::ranges::count(row, newest) > 0 &&
-           std::ranges::count(row, before) > 0;
-  };
-  if (std::ranges::none_of(entering.rows, is_odometry)) return;
-  std::erase_if(entering.rows, [&](Index r) {
-    if (r >= replay.problem->graph->edges() || !is_relative_pose(*replay.problem->graph, r))
-      return false;
-    const auto row = pattern_of(isam).rows[r];
-    if (row.size() != 2 || age(window, r) < least_age) return false;
-    const Index other = row[0] == newest ? row[1] : row[0];
-    if (other == before || isam.tree.variable_clique[other] < 0) return false;
-    Measurement m = measurement(isam, std::span(&r, 1));
-    for (Index& j : m.variables) j = j == newest ? before : j;
-    const double cost = price(isam, m.variables) + 100;
-    const bool refused = gain(isam, m, window.admission.place) < caution * window.spending.rate * cost;
-    window.spending.refused += refused ? 1 : 0;
-    return refused;
-  });
-}
-
 CliqueTree plan_spending(Isam2Window& window, const Entering& entering, Index k, Index least,
                          Leaving& leaving) {
   Isam2& isam = window.replay.isam;
   const auto budget = static_cast<double>(window.options.budget);
-  if (window.options.spend == Spend::mixed && !window.spending.rays && observations_outweigh(window, k)) {
-    window.spending.rate *= fading;
+  if (window.options.spend == Spend::mixed && !window.spending.rays &&
+      observations_outweigh(window, k))
     return plan_within(window, entering, k, least, leaving);
-  }
   CliqueTree plan = plan_with(window, entering, k, least, leaving);
-  double worst = 0;
   // What poses are thought to free is what the tree as it is would lose; the edges that move fill it again. So ever more is
   // asked for, until there is room.
   for (double asked = 1;; asked *= 2) {
@@ -182,17 +136,14 @@ CliqueTree plan_spending(Isam2Window& window, const Entering& entering, Index k,
       const Index pose = cheapest_to_compose(window, k);
       if (pose < 0) break;
       const Index v = window.replay.poses.pose[pose];
-      const double freed =
+      excess -=
           freed_by(isam, variable_of(window.replay, v), host_of(window.replay, pose).variable);
-      worst = std::max(worst, window.spending.losses[pose] / std::max(freed, 1.0));
-      excess -= freed;
       compose(window, pose);
       any = true;
     }
     if (!any) break;
     plan = plan_with(window, entering, k, least, leaving);
   }
-  window.spending.rate = worst > 0 ? worst : fading * window.spending.rate;
   if (ec_after(isam, plan, leaving.variables) <= window.options.budget) return plan;
   return plan_within(window, entering, k, leaving.turns(), leaving);
 }

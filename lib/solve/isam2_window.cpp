@@ -213,14 +213,9 @@ void carry_out(Isam2Window& window, const Entering& entering, const CliqueTree& 
 
 Isam2Report update(Isam2Window& window, const Step& step, Index k) {
   Isam2& isam = window.replay.isam;
-  Entering entering = enter(window.replay, step.vertices, step.edges);
+  const Entering entering = enter(window.replay, step.vertices, step.edges);
   ++window.there;
   measure(window, k);
-  if (window.options.spend == Spend::mixed) {
-    const Stopwatch watch;
-    refuse_closures(window, entering, k);
-    window.choosing += watch.seconds();
-  }
   note(window, step.edges, k);
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
