@@ -227,7 +227,7 @@ void add_options(cmd::Command& command, Options& options) {
 void summarize(const cmd::Command& command, const Options& options, const isam2::Summary& summary,
                const solve::Isam2Window& window) {
   if (!lets_go(options) && options.truth.empty()) return;
-  for (const std::string& line : isam2::lines(summary, window.dropped, has_budget(options)))
+  for (const std::string& line : isam2::lines(summary, window, has_budget(options)))
     cmd::warn(command, line);
 }
 
@@ -297,8 +297,6 @@ void run_file(const cmd::Command& command, const Options& options, const std::st
   for (const std::string& ordering : options.orderings) {
     solve::Isam2Options isam = options.isam;
     isam.ordering = ordering;
-    // What leaves is told clique by clique, as the Bayes tree has them.
-    if (lets_go(options)) isam.relaxed_from = solve::never;
     if (!options.order_budget.empty())
       isam.order_budget = order::parse_budget(options.order_budget, "--order-budget");
     solve::WindowOptions window = options.window;

@@ -81,7 +81,8 @@ double ec_of(const Calibration& c, double seconds) {
   return std::max(1.0, (seconds - fixed) / slope);
 }
 
-std::vector<std::string> lines(const Summary& summary, Index dropped, bool budget) {
+std::vector<std::string> lines(const Summary& summary, const solve::Isam2Window& window,
+                               bool budget) {
   std::vector<std::string> result{spread("update_s", summary.seconds),
                                   spread("ec_step", summary.ec)};
   if (!summary.error.empty()) {
@@ -89,8 +90,12 @@ std::vector<std::string> lines(const Summary& summary, Index dropped, bool budge
     result.push_back("error: mean " + cmd::text(sum / static_cast<double>(summary.error.size())) +
                      " max " + cmd::text(*std::ranges::max_element(summary.error)));
   }
-  if (dropped > 0)
-    result.push_back(std::to_string(dropped) + " edges named what had left, and were dropped");
+  if (window.dropped > 0)
+    result.push_back(std::to_string(window.dropped) +
+                     " edges named what had left, and were dropped");
+  if (budget && window.working > 0)
+    result.push_back("choosing: " + cmd::text(window.choosing / window.working) +
+                     " of the time of the steps");
   if (budget)
     result.push_back(
         summary.violations == 0

@@ -32,7 +32,8 @@ struct Summary {
   Index violations = 0;                    // steps that ended above the budget
 };
 // Lines for standard error: p50, p95, p99 and the largest of the steps' seconds and EC, mean and largest error; then what
-// was dropped and what broke the budget, if anything.
-std::vector<std::string> lines(const Summary& summary, Index dropped, bool budget);
+// was dropped, which share of the time went into choosing, and what broke the budget, if anything.
+std::vector<std::string> lines(const Summary& summary, const solve::Isam2Window& window,
+                               bool budget);
 
 }  // namespace sg::isam2

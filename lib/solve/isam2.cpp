@@ -17,8 +17,7 @@ Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options) {
   const Index n = pattern.variables();
   isam.tree.variable_clique.assign(n, -1);
   isam.tree.row_clique.assign(pattern.rows.size(), -1);
-  const graph::Lists<> columns = graph::columns(pattern);
-  for (Index j = 0; j < n; ++j) isam.rows_of.emplace_back(columns[j].begin(), columns[j].end());
+  isam.columns = graph::columns(pattern);
   isam.linearized.assign(problem.value_at.back(), 0.0);
   isam.estimate = isam.linearized;
   isam.step.assign(problem.step_at.back(), 0.0);
@@ -85,7 +84,7 @@ void let_row_go(Isam2& isam, Index r) {
 
 std::vector<Index> rows_in(const Isam2& isam, Index j) {
   std::vector<Index> rows;
-  std::ranges::copy_if(isam.rows_of[j], std::back_inserter(rows),
+  std::ranges::copy_if(rows_of(isam, j), std::back_inserter(rows),
                        [&](Index r) { return isam.tree.row_clique[r] >= 0; });
   return rows;
 }

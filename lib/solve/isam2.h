@@ -84,19 +84,22 @@ struct Isam2 {
   Index rows = 0;       // factors that have entered, the gauge's row included
 
   // By variable; steps by scalar (Problem::step_at).
-  std::vector<std::vector<Index>> rows_of;  // all rows that a variable has, now or later
-  factor::Values linearized;                // Theta, by vertex as all Values
-  factor::Values estimate;                  // Theta (+) Delta
-  std::vector<double> step;                 // Delta
-  std::vector<double> told;                 // Delta as it was last passed down
-  std::vector<Index> changed;               // update that last passed it down
-  std::vector<double> floor;                // least pivot of every scalar
-  std::vector<bool> moved;                  // is in `candidates`
-  std::vector<bool> unseen;                 // landmark with rows left out (landmark_point.h)
-  std::vector<bool> leaving;                // with this update (isam2_leave.h)
-  std::vector<bool> pinned;                 // keeps its linearization point (isam2_leave.h)
+  graph::Lists<>
+      columns;  // the rows of the problem's pattern; rows_of() says which are a variable's
+  factor::Values linearized;      // Theta, by vertex as all Values
+  factor::Values estimate;        // Theta (+) Delta
+  std::vector<double> step;       // Delta
+  std::vector<double> told;       // Delta as it was last passed down
+  std::vector<Index> changed;     // update that last passed it down
+  std::vector<double> floor;      // least pivot of every scalar
+  std::vector<bool> moved;        // is in `candidates`
+  std::vector<bool> unseen;       // landmark with rows left out (landmark_point.h)
+  std::vector<bool> leaving;      // with this update (isam2_leave.h)
+  std::vector<bool> pinned;       // keeps its linearization point (isam2_leave.h)
   std::vector<Index> past;        // cliques kept of variables that have left, in that order
   std::vector<Index> candidates;  // with a step of beta or more, or unseen
+  std::vector<std::vector<Index>>
+      changed_rows;  // instead of `columns`, once a row has changed hands (isam2_keyframes.h)
 
   // By row of the problem's pattern.
   std::vector<Index> row_update;  // that last linearized it
@@ -152,6 +155,11 @@ double chi2(const Isam2& isam);
 // The pattern of all that will ever come.
 inline const graph::Pattern& pattern_of(const Isam2& isam) {
   return isam.problem->variables.pattern;
+}
+
+// All rows that variable j has, now or later.
+inline std::span<const Index> rows_of(const Isam2& isam, Index j) {
+  return isam.changed_rows.empty() ? isam.columns[j] : std::span<const Index>(isam.changed_rows[j]);
 }
 
 // The largest number of variable j's step.

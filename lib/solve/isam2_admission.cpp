@@ -5,6 +5,7 @@
 
 #include "lib/solve/isam2_admit.h"
 #include "lib/solve/isam2_leave.h"
+#include "lib/solve/stopwatch.h"
 
 namespace sg::solve {
 namespace {
@@ -178,7 +179,9 @@ void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::
   for (const Admission::Held& held : choice.out) give_back(isam, admission, held);
   drop_homeless(isam, choice);
   Entering in = entering(choice);
+  const Stopwatch watch;
   CliqueTree plan = plan_top(isam, in.variables, in.rows);
+  double planning = watch.seconds();
   while (ec_after(isam, plan, {}) > budget) {
     if (!choice.in.empty()) {
       choice.in.resize(choice.in.size() / 2);
@@ -189,8 +192,11 @@ void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::
       choice.out.push_back(*held);
       give_back(isam, admission, *held);
     }
+    const double before = watch.seconds();
     plan = plan_top(isam, in.variables, in.rows);
+    planning = watch.seconds() - before;
   }
+  admission.choosing += watch.seconds() - planning;
   Isam2Report own;
   redo_and_solve(isam, in.variables, in.rows, plan, own);
   for (Index r : wanted) {
@@ -263,12 +269,14 @@ Admitted admit(Isam2Replay& replay, Admission& admission, std::span<const Offer>
                elim::Wide budget, Isam2Report& report) {
   Admitted result;
   if (offers.empty() && replay.isam.tree.ec_bt <= budget) return result;
+  const Stopwatch watch;
   std::vector<Bid> bids;
   for (const Offer& offer : offers) {
     admission.offered += static_cast<Index>(offer.edges.size());
     if (const auto bid = bid_of(replay, admission, offer)) bids.push_back(*bid);
   }
   Choice choice = choose(replay, admission, std::move(bids), static_cast<double>(budget));
+  admission.choosing += watch.seconds();
   if (!choice.in.empty() || replay.isam.tree.ec_bt > budget)
     carry_out(replay, admission, choice, budget, report);
   for (const Bid& bid : choice.in) {

@@ -35,6 +35,7 @@ struct Admission {
   Index offered = 0;         // edges so far
   Index admitted = 0;        // of them
   Index returned = 0;        // given back since
+  double choosing = 0;       // seconds so far of pricing and choosing
 };
 
 Admission make_admission(const Isam2Replay& replay);

@@ -40,13 +40,27 @@ Index landmark_of(const Isam2Replay& replay, Index e) {
   return -1;
 }
 
-// The edge that ties pose v best to another; -1 where none does.
+// The edge that ties pose v best to a neighbour on its path: the nearest before it, or behind it, that an edge leads to. -1
+// where none does. A closure would do as a way, too; but then the path, which is worth more, would lead along it twice.
 Index best_link(const Isam2Replay& replay, Index v, std::span<const Index> rows) {
+  const Index own = replay.poses.index[v];
+  const auto end_of = [&](Index r) {
+    return replay.poses.index[other_end(replay.problem->graph->edge(r), v)];
+  };
+  const auto leads = [&](Index r) {
+    return is_link(replay, r) && is_there(replay, other_end(replay.problem->graph->edge(r), v));
+  };
+  Index before = -1, behind = std::numeric_limits<Index>::max();
+  for (Index r : rows) {
+    if (!leads(r)) continue;
+    const Index end = end_of(r);
+    if (end < own) before = std::max(before, end);
+    if (end > own) behind = std::min(behind, end);
+  }
   Index best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (Index r : rows) {
-    if (!is_link(replay, r) || !is_there(replay, other_end(replay.problem->graph->edge(r), v)))
-      continue;
+    if (!leads(r) || (end_of(r) != before && end_of(r) != behind)) continue;
     const double variance = solve::variance(relative_pose(*replay.problem, r));
     if (variance < least) {
       least = variance;
@@ -58,18 +72,31 @@ Index best_link(const Isam2Replay& replay, Index v, std::span<const Index> rows)
 
 // Row r is one of pose `to` from now on, and none of pose `from`.
 void change_row(Isam2Replay& replay, Index r, Index from, Index to) {
-  std::erase(replay.isam.rows_of[variable_of(replay, from)], r);
-  replay.isam.rows_of[variable_of(replay, to)].push_back(r);
+  Isam2& isam = replay.isam;
+  if (isam.changed_rows.empty()) {
+    for (Index j = 0; j < isam.columns.size(); ++j)
+      isam.changed_rows.emplace_back(isam.columns[j].begin(), isam.columns[j].end());
+  }
+  std::erase(isam.changed_rows[variable_of(replay, from)], r);
+  isam.changed_rows[variable_of(replay, to)].push_back(r);
 }
 
-double freed_at(const Isam2& isam, Index c, Index j, bool frontal) {
+bool holds(const Isam2& isam, const Isam2Clique& clique, Index j) {
+  return std::ranges::count(frontals_of(isam.tree, clique), j) > 0 ||
+         std::ranges::count(separators_of(isam.tree, clique), j) > 0;
+}
+
+// Of the cliques from c down that hold j; heir: variable that takes its place in those that do not hold it, -1 for none.
+double freed_at(const Isam2& isam, Index c, Index j, bool frontal, Index heir) {
   const Isam2Clique& clique = isam.tree.cliques[c];
   const double d = pattern_of(isam).dim[j], f = clique.f, n = clique.f + clique.s;
-  double sum = f * n * n - (frontal ? f - d : f) * (n - d) * (n - d);
+  double sum = 0;
+  if (heir < 0 || holds(isam, clique, heir))
+    sum = f * n * n - (frontal ? f - d : f) * (n - d) * (n - d);
   for (Index child = clique.first_child; child >= 0; child = isam.tree.cliques[child].next) {
     const Isam2Clique& below = isam.tree.cliques[child];
     if (!is_prior(below) && std::ranges::count(separators_of(isam.tree, below), j) > 0)
-      sum += freed_at(isam, child, j, false);
+      sum += freed_at(isam, child, j, false, heir);
   }
   return sum;
 }
@@ -113,7 +140,7 @@ bool can_be_composed(const Isam2Replay& replay, Index k, int min_obs) {
   if (j < 0 || j == replay.problem->held || isam.tree.variable_clique[j] < 0 || isam.pinned[j])
     return false;
   bool tied = false;
-  for (Index r : isam.rows_of[j]) {
+  for (Index r : rows_of(isam, j)) {
     if (enters(isam, r)) return false;
     if (isam.tree.row_clique[r] < 0) continue;
     if (is_link(replay, r)) {
@@ -129,10 +156,11 @@ bool can_be_composed(const Isam2Replay& replay, Index k, int min_obs) {
   return tied;
 }
 
-double way_variance(const Isam2Replay& replay, Index k) {
+Host host_of(const Isam2Replay& replay, Index k) {
   const Index v = replay.poses.pose[k];
   const Index link = best_link(replay, v, rows_in(replay.isam, variable_of(replay, v)));
-  return variance(relative_pose(*replay.problem, link));
+  return {variable_of(replay, other_end(replay.problem->graph->edge(link), v)),
+          variance(relative_pose(*replay.problem, link))};
 }
 
 std::vector<Index> compose_away(Isam2Replay& replay, Keyframes& keyframes, Index k) {
@@ -173,20 +201,62 @@ std::vector<Index> compose_away(Isam2Replay& replay, Keyframes& keyframes, Index
   return landmarks;
 }
 
-double freed_by(const Isam2& isam, Index j) {
+double freed_by(const Isam2& isam, Index j, Index heir) {
   const Index c = isam.tree.variable_clique[j];
-  return c < 0 ? 0 : freed_at(isam, c, j, true);
+  return c < 0 ? 0 : freed_at(isam, c, j, true, heir);
 }
+
+namespace {
+
+// The link between poses a and b (pose indices) that says most, from a on.
+std::optional<RelativePose> link_between(const Isam2Replay& replay, Index a, Index b) {
+  const Index from = replay.poses.pose[a], to = replay.poses.pose[b];
+  std::optional<RelativePose> best;
+  for (Index r : rows_in(replay.isam, variable_of(replay, from))) {
+    if (!is_link(replay, r) || other_end(replay.problem->graph->edge(r), from) != to) continue;
+    const RelativePose z = measured_from(replay, r, from);
+    if (!best || variance(z) < variance(*best)) best = z;
+  }
+  return best;
+}
+
+}  // namespace
 
 void place_composed(Isam2Replay& replay, Keyframes& keyframes) {
   const factor::Problem& problem = *replay.problem;
+  double* const x = replay.isam.estimate.data();
+  const auto at = [&](Index k) { return problem.value_at[replay.poses.pose[k]]; };
   std::vector<Index> composed;
   for (const auto& [k, way] : keyframes.ways) composed.push_back(k);
-  for (const Index k : composed) {
-    const Keyframes::Way way = way_to(keyframes, k);
-    double* const x = replay.isam.estimate.data();
-    place(way.from_host, x + problem.value_at[replay.poses.pose[way.host]],
-          x + problem.value_at[replay.poses.pose[k]]);
+  std::ranges::sort(composed);
+  for (std::size_t i = 0; i < composed.size();) {
+    // A stretch of them, and the poses on either side.
+    const Index before = composed[i] - 1;
+    std::size_t end = i;
+    while (end < composed.size() && composed[end] - composed[i] == static_cast<Index>(end - i))
+      ++end;
+    const Index behind = composed[end - 1] + 1;
+    const bool between = before >= 0 && behind < static_cast<Index>(replay.poses.pose.size()) &&
+                         is_there(replay, replay.poses.pose[before]) &&
+                         is_there(replay, replay.poses.pose[behind]);
+    const std::optional<RelativePose> along =
+        between ? link_between(replay, before, behind) : std::nullopt;
+    for (; i < end; ++i) {
+      const Keyframes::Way way = way_to(keyframes, composed[i]);
+      double* const pose = x + at(composed[i]);
+      place(way.from_host, x + at(way.host), pose);
+      if (!along || (way.host != before && way.host != behind)) continue;
+      // The same from the other side, by the share of the path that is behind it.
+      const bool first = way.host == before;
+      const RelativePose back = first ? inverse(*along) : *along;
+      std::array<double, 16> other{};
+      std::copy_n(pose, problem.value_at[replay.poses.pose[composed[i]] + 1] - at(composed[i]),
+                  other.begin());
+      place(compose(back, way.from_host), x + at(first ? behind : before), other.data());
+      const double share = variance(way.from_host) / variance(*along);
+      if (share < 1)
+        blend(problem.space[replay.poses.pose[composed[i]]], other.data(), share, pose);
+    }
   }
 }
 

@@ -48,8 +48,12 @@ bool move_edge(Isam2Replay& replay, Keyframes& keyframes, Index e);
 // Whether pose k may leave so, with no landmark of the linear factors left with fewer than min_obs observations.
 bool can_be_composed(const Isam2Replay& replay, Index k, int min_obs);
 
-// The variance of the way from the pose that would stand for pose k, which can be composed.
-double way_variance(const Isam2Replay& replay, Index k);
+// The pose that would stand for pose k, which can be composed.
+struct Host {
+  Index variable;
+  double variance;  // of the way from it
+};
+Host host_of(const Isam2Replay& replay, Index k);
 
 // Between begin_update and plan_top. Returns the landmarks that pose k had seen.
 std::vector<Index> compose_away(Isam2Replay& replay, Keyframes& keyframes, Index k);
@@ -59,10 +63,12 @@ inline bool enters(const Isam2& isam, Index r) {
   return isam.tree.row_clique[r] < 0 && isam.gram_at[r] >= 0;
 }
 
-// By how much EC_BT falls without variable j, by the tree as it is.
-double freed_by(const Isam2& isam, Index j);
+// By how much EC_BT falls without variable j, by the tree as it is; heir: a variable that takes its place in the cliques, and so
+// frees no more than those that hold both. Takes the time of the part of the tree that has j.
+double freed_by(const Isam2& isam, Index j, Index heir = -1);
 
-// Estimates of the poses that were composed, by the ways from those that stand for them.
+// Estimates of the poses that were composed, by the ways from those that stand for them; between two neighbours on the path,
+// as the variances of the ways to both have it.
 void place_composed(Isam2Replay& replay, Keyframes& keyframes);
 
 }  // namespace sg::solve

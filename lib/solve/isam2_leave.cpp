@@ -44,9 +44,10 @@ elim::Wide cost(std::int64_t f, std::int64_t s) {
   return elim::elimination_cost(f, f + s);
 }
 
-// What a clique costs without those of its frontal variables that leave.
+// What a clique, which costs `ec`, does without those of its frontal variables that leave.
 elim::Wide cost_without(const Isam2& isam, std::span<const Index> frontals, auto&& variable,
-                        std::int64_t s) {
+                        std::int64_t s, std::int64_t ec) {
+  if (std::ranges::none_of(frontals, leaves(isam), variable)) return static_cast<elim::Wide>(ec);
   std::int64_t f = 0;
   for (Index j : frontals) f += isam.leaving[variable(j)] ? 0 : pattern_of(isam).dim[variable(j)];
   return cost(f, s);
@@ -245,7 +246,16 @@ graph::Order order_after(const Isam2Options& isam_options, const graph::Pattern&
   return order;
 }
 
+void leave_cliques_apart(Isam2& isam) {
+  if (isam.options.relaxed_from == never) return;
+  isam.options.relaxed_from = never;
+  for (Index c = 0; c < static_cast<Index>(isam.tree.cliques.size()); ++c) {
+    if (is_there(isam.tree.cliques[c]) && isam.tree.cliques[c].merged > 1) mark_to_root(isam, c);
+  }
+}
+
 void mark_leaving(Isam2& isam, std::span<const Index> leaving) {
+  if (!leaving.empty()) leave_cliques_apart(isam);
   for (Index j : leaving) {
     const Index c = isam.tree.variable_clique[j];
     if (c >= 0 && is_below_staying(isam, c, j)) mark_holders(isam, c, j);
@@ -258,7 +268,7 @@ elim::Wide ec_after(const Isam2& isam, const CliqueTree& plan, std::span<const I
   for (Index c : isam.work.marked) ec -= static_cast<elim::Wide>(tree.cliques[c].ec);
   const auto of_top = [&](Index k) { return isam.work.variables[k]; };
   for (Index k = 0; k < plan.cliques(); ++k)
-    ec += cost_without(isam, plan.frontals[k], of_top, plan.separator_dim[k]);
+    ec += cost_without(isam, plan.frontals[k], of_top, plan.separator_dim[k], plan.ec[k]);
   std::vector<Index> beyond;  // cliques
   for (Index j : leaving) {
     const Index c = tree.variable_clique[j];
@@ -270,7 +280,7 @@ elim::Wide ec_after(const Isam2& isam, const CliqueTree& plan, std::span<const I
   for (Index c : beyond) {
     const Isam2Clique& clique = tree.cliques[c];
     ec -= static_cast<elim::Wide>(clique.ec);
-    ec += cost_without(isam, frontals_of(tree, clique), std::identity(), clique.s);
+    ec += cost_without(isam, frontals_of(tree, clique), std::identity(), clique.s, clique.ec);
   }
   return ec;
 }

@@ -35,8 +35,12 @@ namespace sg::solve {
 graph::Order order_after(const Isam2Options& options, const graph::Pattern& pattern,
                          std::span<const Index> first, std::vector<Index> last);
 
+// From now on cliques are the Bayes tree's, none is relaxed (clique_tree.h): what leaves one is told by its own EC, and
+// EC_BT stays a sum over cliques. Marks those that are relaxed. Where nothing has ever left, they are as they always were.
+void leave_cliques_apart(Isam2& isam);
+
 // Between begin_update and plan_top: `isam.leaving` says of these variables that they leave. Marks cliques that hold
-// one below a variable that stays.
+// one below a variable that stays; at the first that leave, relaxed ones.
 void mark_leaving(Isam2& isam, std::span<const Index> leaving);
 
 // EC_BT when the plan has been carried out and `leaving` have left.

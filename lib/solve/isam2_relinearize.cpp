@@ -49,7 +49,7 @@ void move_point(Isam2& isam, Index j) {
   const Index v = problem.variables.variable_vertex[j];
   std::vector<Index>& edges = isam.work.edges;
   edges.clear();
-  std::ranges::copy_if(isam.rows_of[j], std::back_inserter(edges), [&](Index r) {
+  std::ranges::copy_if(rows_of(isam, j), std::back_inserter(edges), [&](Index r) {
     return isam.tree.row_clique[r] >= 0 && r < problem.graph->edges();
   });
   double* const point = isam.linearized.data() + problem.value_at[v];
@@ -115,7 +115,7 @@ Index relinearize(Isam2& isam) {
   }
   for (Index j : moved) {
     mark_to_root(isam, isam.tree.variable_clique[j]);
-    for (Index r : isam.rows_of[j]) {
+    for (Index r : rows_of(isam, j)) {
       if (isam.tree.row_clique[r] < 0 || isam.row_update[r] == isam.updates) continue;
       linearize_factor(isam, r);
       mark_to_root(isam, isam.tree.row_clique[r]);

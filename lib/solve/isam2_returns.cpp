@@ -20,35 +20,20 @@ double first_age(int k) {
 
 void next_step(Returns& returns) {
   returns.steps = kept * returns.steps + 1;
-  for (Returns::Class& c : returns.ages) {
-    c.edges *= kept;
-    c.gain *= kept;
-    c.looked *= kept;
-  }
+  for (double& edges : returns.edges) edges *= kept;
 }
 
-void note_return(Returns& returns, Index age, std::optional<double> gain) {
-  Returns::Class& c = returns.ages[class_of(age)];
-  ++c.edges;
-  if (!gain) return;
-  c.gain += *gain;
-  ++c.looked;
+void note_return(Returns& returns, Index age) {
+  ++returns.edges[class_of(age)];
 }
 
-double expected_gain(const Returns& returns, Index age) {
+double expected_edges(const Returns& returns, Index age) {
   const int own = class_of(age);
-  double sum = 0, mean = 0, of_age = 1;
-  for (int k = 0; k < Returns::classes; ++k) {
-    const Returns::Class& c = returns.ages[k];
-    if (c.looked > 0.01) {
-      mean = c.gain / c.looked;
-      of_age = first_age(k);
-    }
-    if (k < own || c.edges == 0) continue;
+  double sum = 0;
+  for (int k = own; k < Returns::classes; ++k) {
     // Of its own class the part that is older.
-    const double a = first_age(k);
-    const double share = k > own ? 1 : (first_age(k + 1) - age) / (first_age(k + 1) - a);
-    sum += std::clamp(share, 0.0, 1.0) * c.edges * mean * a / of_age;
+    const double share = k > own ? 1 : (first_age(k + 1) - age) / (first_age(k + 1) - first_age(k));
+    sum += std::clamp(share, 0.0, 1.0) * returns.edges[k];
   }
   return returns.steps > 0 ? sum / returns.steps : 0;
 }

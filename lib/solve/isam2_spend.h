@@ -1,30 +1,27 @@
-// What a budget is spent on where poses are composed, too: whatever loses least per EC that it frees.
+// What a budget is spent on where poses are composed: whatever loses least.
 //
-// Loss is by how much the sum of the variances of positions will be larger for it (isam2_admit.h):
+// Loss is by how much the sum of the variances of positions will be larger for it:
 //
-//   the oldest pose leaves    what edges will come back to it and would have told (isam2_returns.h), is lost; what it knows
-//                             is not, since it is marginalized;
-//   a pose is composed        its observations are given back: what that loses now; and of what edges will come back to it
-//                             the share of the way from its host in the variance of a closure from there;
-//   a closure is refused      its gain; what it would add to EC_BT is what that frees.
+//   a pose is composed        all that it stands for hang on the way from its host then: so many times the variance of the
+//                             way, with the longest that they had before. Always taking the least of these thins the past
+//                             out evenly, as a fixed rate would, and ever further as the budget fills;
+//   the oldest pose leaves    what edges will come back to it and would have told is lost; what it knows is not, since it
+//                             is marginalized, and the observations that composing would have given back are kept.
 //
-// What a pose stands for counts as often as it stands for others. While a step is above the budget, the cheaper of the first
-// two is done; a closure is refused if its rate is below the last one at which room was made. So poses leave by age, at
-// no loss, where no way leads back; where one does, the past is thinned out, the old and what lies close first.
+// `keyframes` composes, and lets poses go by age where none can be composed. `mixed` lets the oldest go while what is
+// expected to come back to it (isam2_returns.h) is less than a tenth of what it observes, and composes otherwise, or where
+// landmarks are seen along rays: marginalized before they have been seen from afar, they would be linear in poor points.
 #pragma once
 
 #include "lib/solve/isam2_turns.h"
 
 namespace sg::solve {
 
-// Before an update: leaves closures out of what enters that are not worth it.
-void refuse_closures(Isam2Window& window, Entering& entering, Index k);
-
 // As plan_within, and poses are composed.
 CliqueTree plan_spending(Isam2Window& window, const Entering& entering, Index k, Index least,
                          Leaving& leaving);
 
-// After an update: learns from what has come in, and from what named what has left.
+// After an update: notes how old what the step's edges named was.
 void learn(Isam2Window& window);
 
 }  // namespace sg::solve

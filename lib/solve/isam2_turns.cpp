@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/solve/isam2_leave.h"
+#include "lib/solve/stopwatch.h"
 
 namespace sg::solve {
 namespace {
@@ -111,7 +112,10 @@ CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Ind
   while (leaving.turns() > turns) last_stays(window, leaving);
   mark_leaving(window.replay.isam, leaving.variables);
   ++window.plans;
-  return plan_top(window.replay.isam, entering.variables, entering.rows);
+  const Stopwatch watch;
+  CliqueTree plan = plan_top(window.replay.isam, entering.variables, entering.rows);
+  window.planning = watch.seconds();
+  return plan;
 }
 
 CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, Index least,

@@ -7,6 +7,8 @@
 #include "lib/solve/isam2_leave.h"
 #include "lib/solve/isam2_spend.h"
 #include "lib/solve/isam2_turns.h"
+#include "lib/solve/landmark_point.h"
+#include "lib/solve/stopwatch.h"
 
 namespace sg::solve {
 namespace {
@@ -179,6 +181,8 @@ Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options
   if (composes(window)) window.keyframes.own = rewritable(problem);
   window.replay = make_isam2_replay(window.keyframes.own ? window.keyframes.own->problem : problem,
                                     isam, min_obs, start_from_file);
+  // Where every row is priced, by the cliques.
+  if (options.spend == Spend::measurements) leave_cliques_apart(window.replay.isam);
   window.renewal = {.factor = options.renew, .budget = options.budget};
   window.min_obs = min_obs;
   const Graph& graph = *problem.graph;
@@ -189,9 +193,10 @@ Isam2Window make_isam2_window(const factor::Problem& problem, const Isam2Options
   const std::size_t poses = window.replay.poses.pose.size();
   window.keyframes.stands_for.assign(poses, 1);
   window.keyframes.spread.assign(poses, 0);
-  window.spending.worth.assign(poses, 0);
-  window.spending.looked.assign(poses, -1);
-  window.spending.rates.assign(poses, std::numeric_limits<double>::infinity());
+  window.spending.losses.assign(poses, 0);
+  window.spending.stays.assign(poses, -1);
+  for (Index e = 0; e < graph.edges(); ++e)
+    window.spending.rays = window.spending.rays || sees_along_ray(problem, e);
   return window;
 }
 
@@ -208,10 +213,9 @@ void carry_out(Isam2Window& window, const Entering& entering, const CliqueTree& 
 
 Isam2Report update(Isam2Window& window, const Step& step, Index k) {
   Isam2& isam = window.replay.isam;
-  Entering entering = enter(window.replay, step.vertices, step.edges);
+  const Entering entering = enter(window.replay, step.vertices, step.edges);
   ++window.there;
   measure(window, k);
-  if (window.options.spend == Spend::mixed) refuse_closures(window, entering, k);
   note(window, step.edges, k);
   Isam2Report report;
   report.relinearized = begin_update(isam, entering.rows);
@@ -220,7 +224,9 @@ Isam2Report update(Isam2Window& window, const Step& step, Index k) {
     ++window.renewed;
   }
   Leaving leaving;
+  const Stopwatch watch;
   const CliqueTree made = plan(window, entering, k, leaving);
+  window.choosing += watch.seconds() - window.planning;
   carry_out(window, entering, made, leaving, report);
   check_solved(window.replay, k, report);
   if (composes(window)) learn(window);
@@ -238,7 +244,9 @@ void let_poses_go(Isam2Window& window, Index k, Isam2Report& report) {
 
 }  // namespace
 
-Isam2Report window_step(Isam2Window& window, Index k) {
+namespace {
+
+Isam2Report step_at(Isam2Window& window, Index k) {
   Step step = entering_at(window, k);
   if (window.options.spend != Spend::measurements) return update(window, step, k);
   const std::vector<Offer> offers =
@@ -252,6 +260,17 @@ Isam2Report window_step(Isam2Window& window, Index k) {
   for (Index v : admitted.returned_landmarks) window.left[v] = true;
   if (window.replay.isam.tree.ec_bt > window.options.budget) let_poses_go(window, k, report);
   check_solved(window.replay, k, report);
+  return report;
+}
+
+}  // namespace
+
+Isam2Report window_step(Isam2Window& window, Index k) {
+  const Stopwatch watch;
+  const double before = window.admission.choosing;
+  Isam2Report report = step_at(window, k);
+  window.choosing += window.admission.choosing - before;
+  window.working += watch.seconds();
   return report;
 }
 

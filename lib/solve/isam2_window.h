@@ -47,14 +47,10 @@ struct WindowOptions {
 // What is known of what a budget is best spent on (isam2_spend.h).
 struct Spending {
   Returns returns;
-  double rate = 0;     // at which room was last made: loss per EC
-  double closure = 0;  // mean variance of closures, faded
   std::vector<double>
-      worth;  // by pose index: what giving its observations back would lose, when last looked at
-  std::vector<Index> looked;                  // by pose index: in which step, -1: never
-  std::vector<double> rates;                  // by pose index: of composing it, when last looked at
-  Index next_look = 0;                        // pose index
-  Index refused = 0;                          // edges
+      losses;  // by pose index: of composing it, when last looked at; infinite once it is
+  std::vector<Index> stays;  // by pose index: in which step it could not be composed, -1
+  bool rays = false;         // landmarks are seen along rays
   std::vector<std::pair<Index, Index>> ages;  // of this step's edges, what they name: edge and age
 };
 
@@ -77,6 +73,10 @@ struct Isam2Window {
   Spending spending;
   Index usual_turns = 0;  // beyond what is too old, of the last step
   Index plans = 0;        // made so far
+  double planning = 0;    // seconds that the last plan took
+  double choosing =
+      0;  // seconds so far of pricing and choosing: all but the plans that were carried out
+  double working = 0;  // seconds so far of all steps
   Renewal renewal;
   Index renewed = 0;              // steps that ordered the whole anew
   std::vector<Index> incomplete;  // vertices that wait for observations, ascending

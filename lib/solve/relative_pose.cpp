@@ -1,10 +1,13 @@
 #include "lib/solve/relative_pose.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <limits>
 #include <vector>
 
+#include "lib/factor/space.h"
 #include "lib/factor/whitening.h"
+#include "lib/geometry/information.h"
 #include "lib/geometry/numbers.h"
 #include "lib/geometry/triangle.h"
 
@@ -21,49 +24,82 @@ Matrix information_of(const factor::Problem& problem, Index e) {
 }
 
 template <class Matrix>
-double position_variance(const Matrix& information, int size) {
+double position_variance(const Matrix& information, int first, int size) {
   const Eigen::LDLT<Matrix> ldlt(information);
   const auto D = ldlt.vectorD();
   if (!(D.minCoeff() > 1e-12 * D.maxCoeff())) return std::numeric_limits<double>::infinity();
   const Matrix covariance = ldlt.solve(Matrix::Identity());
-  return covariance.diagonal().head(size).sum();
+  return covariance.diagonal().segment(first, size).sum();
 }
 
 }  // namespace
 
 bool is_relative_pose(const Graph& graph, Index e) {
-  return graph.edge_tag(e) == graph::EdgeTag::se2 || graph.edge_tag(e) == graph::EdgeTag::se3;
+  return graph.edge_tag(e) == graph::EdgeTag::se2 || graph.edge_tag(e) == graph::EdgeTag::se3 ||
+         graph.edge_tag(e) == graph::EdgeTag::expmap;
 }
 
 RelativePose relative_pose(const factor::Problem& problem, Index e) {
   const double* const z = factor::constants_of(problem, e);
   if (problem.graph->edge_tag(e) == graph::EdgeTag::se2)
     return UncertainSE2{geometry::se2(z), information_of<Eigen::Matrix3d>(problem, e)};
-  return UncertainSE3{geometry::se3(z), information_of<Matrix6d>(problem, e)};
+  if (problem.graph->edge_tag(e) == graph::EdgeTag::se3)
+    return UncertainSE3{geometry::se3(z), information_of<Matrix6d>(problem, e)};
+  return UncertainExpmap{geometry::inverse(geometry::se3(z)), information_of<Matrix6d>(problem, e)};
 }
 
 RelativePose compose(const RelativePose& first, const RelativePose& second) {
   if (const auto* a = std::get_if<UncertainSE2>(&first))
     return geometry::compose(*a, std::get<UncertainSE2>(second));
-  return geometry::compose(std::get<UncertainSE3>(first), std::get<UncertainSE3>(second));
+  if (const auto* a = std::get_if<UncertainSE3>(&first))
+    return geometry::compose(*a, std::get<UncertainSE3>(second));
+  const auto& a = std::get<UncertainExpmap>(first);
+  const auto& b = std::get<UncertainExpmap>(second);
+  return UncertainExpmap{geometry::compose(a.mean, b.mean),
+                         geometry::parallel_sum(a.information, b.information)};
 }
 
 RelativePose inverse(const RelativePose& pose) {
-  return std::visit([](const auto& p) -> RelativePose { return geometry::inverse(p); }, pose);
+  if (const auto* a = std::get_if<UncertainSE2>(&pose)) return geometry::inverse(*a);
+  if (const auto* a = std::get_if<UncertainSE3>(&pose)) return geometry::inverse(*a);
+  const auto& a = std::get<UncertainExpmap>(pose);
+  return UncertainExpmap{geometry::inverse(a.mean), a.information};
 }
 
 double variance(const RelativePose& pose) {
-  if (const auto* a = std::get_if<UncertainSE2>(&pose)) return position_variance(a->information, 2);
-  return position_variance(std::get<UncertainSE3>(pose).information, 3);
+  if (const auto* a = std::get_if<UncertainSE2>(&pose))
+    return position_variance(a->information, 0, 2);
+  if (const auto* a = std::get_if<UncertainSE3>(&pose))
+    return position_variance(a->information, 0, 3);
+  return position_variance(std::get<UncertainExpmap>(pose).information, 3, 3);
 }
 
 void place(const RelativePose& pose, const double* first, double* second) {
   if (const auto* a = std::get_if<UncertainSE2>(&pose)) {
     geometry::set_se2(geometry::compose(geometry::se2(first), a->mean), second);
-  } else {
-    geometry::set_se3(geometry::compose(geometry::se3(first), std::get<UncertainSE3>(pose).mean),
-                      second);
+  } else if (const auto* b = std::get_if<UncertainSE3>(&pose)) {
+    geometry::set_se3(geometry::compose(geometry::se3(first), b->mean), second);
+  } else {  // estimates map world to camera
+    const SE3 back = geometry::inverse(std::get<UncertainExpmap>(pose).mean);
+    geometry::set_se3(geometry::compose(back, geometry::se3(first)), second);
   }
+}
+
+void blend(graph::Space space, const double* other, double share, double* x) {
+  if (space == graph::Space::se2) {
+    for (int k = 0; k < 2; ++k) x[k] += share * (other[k] - x[k]);
+    x[2] = geometry::wrap(x[2] + share * geometry::wrap(other[2] - x[2]));
+    return;
+  }
+  std::array<double, 7> a, b;  // as files have them: where the pose is
+  factor::to_file(space, x, a.data());
+  factor::to_file(space, other, b.data());
+  SE3 pose = geometry::se3(a.data());
+  const SE3 to = geometry::se3(b.data());
+  pose.t += share * (to.t - pose.t);
+  pose.q = pose.q.slerp(share, to.q);
+  geometry::set_se3(pose, a.data());
+  factor::from_file(space, a.data(), x);
 }
 
 void rewrite(Rewritable& own, Index e, Index first, Index second, const RelativePose& pose) {
