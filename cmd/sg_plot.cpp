@@ -167,7 +167,7 @@ Eliminated eliminated(const Options& options, const Graph& graph) {
 void draw_map(cairo_t* page, const Options& options, Graph& graph) {
   const std::string hint = options.cost ? "" : plot::unsolved_hint(graph);
   // Where estimates are not composed along edges nobody asks for their lines any more, and an order takes much.
-  if (!options.sigma && !graph.edges_only) graph.edge_line = std::vector<Offset>();
+  if (!options.sigma && !options.cost && !graph.edges_only) graph.edge_line = std::vector<Offset>();
   const Eliminated known = eliminated(options, graph);
   const plot::View view = seen_from(options, graph);
   if (options.cost)
