@@ -31,8 +31,8 @@ namespace sg::solve {
 enum class Spend : std::uint8_t {
   window,        // the oldest poses leave
   measurements,  // closures and observations are refused or given back (isam2_admission.h); then the oldest poses leave
-  keyframes,  // poses are composed (isam2_keyframes.h) that pay least; where none can be, the oldest leave
-  mixed,  // whatever of these costs least (isam2_spend.h)
+  keyframes,  // poses are composed (isam2_keyframes.h) that lose least by it; where none can be, the oldest leave
+  mixed,  // either, by what comes back to the oldest (isam2_spend.h)
 };
 
 struct WindowOptions {
