@@ -88,10 +88,13 @@ std::optional<Run> set_out(Search& search, Candidate& start, int iterations) {
   }
 }
 
+bool noise_explains(const factor::Problem& problem, double chi2) {
+  const double mean = std::max(degrees_of_freedom(problem), 0.0);
+  return chi2 <= mean + deviations * std::sqrt(2 * mean);
+}
+
 bool explains(const factor::Problem& problem, const std::optional<Run>& run) {
-  const double mean = degrees_of_freedom(problem);
-  return run && run->result.converged &&
-         run->result.chi2 <= mean + deviations * std::sqrt(2 * std::max(mean, 0.0));
+  return run && run->result.converged && noise_explains(problem, run->result.chi2);
 }
 
 void try_other(Search& search, Candidate& start) {
@@ -118,7 +121,7 @@ std::vector<Candidate> default_candidates(const factor::Problem& problem,
     result.push_back(make_candidate(problem, start, loss));
   };
   add(own_start(*problem.graph));
-  if (measures_motions(problem)) add("chordal");
+  if (!noise_explains(problem, result[0].chi2) && measures_motions(problem)) add("chordal");
   std::ranges::stable_sort(result, [](const Candidate& a, const Candidate& b) {
     return a.chi2 < b.chi2 || (std::isfinite(a.chi2) && !std::isfinite(b.chi2));
   });

@@ -27,8 +27,8 @@ struct Candidate {
 Candidate make_candidate(const factor::Problem& problem, std::string_view start,
                          const factor::Loss& loss);
 
-// The file's estimates, if there are any, else composed odometry; and the chordal relaxation where edges measure motions.
-// The least chi2 first.
+// The file's estimates, if there are any, else composed odometry; and, unless noise alone explains what that leaves, the
+// chordal relaxation where edges measure motions. The least chi2 first.
 std::vector<Candidate> default_candidates(const factor::Problem& problem, const factor::Loss& loss);
 
 // Where a run of the optimizer begins, and what its rows will be of.
