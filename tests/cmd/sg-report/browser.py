@@ -124,7 +124,8 @@ def fits(browser):
 def main():
     program, path = sys.argv[1:]
     graph = data_of(path)["graphs"][0]
-    with tempfile.TemporaryDirectory() as profile:
+    # The browser's children may outlive it by a moment, and write.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         browser = Browser(program, profile)
         try:
             browser.open(path, 1280)
