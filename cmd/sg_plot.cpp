@@ -8,7 +8,6 @@
 #include "cmd/common/command.h"
 #include "cmd/common/method.h"
 #include "cmd/common/options.h"
-#include "cmd/common/read_thinly.h"
 #include "cmd/common/table.h"
 #include "cmd/plot/curves.h"
 #include "cmd/plot/heat.h"

@@ -8,7 +8,6 @@
 
 #include "cmd/common/complete.h"
 #include "cmd/common/help.h"
-#include "cmd/common/read_thinly.h"
 #include "cmd/common/shell.h"
 #include "formats/convert.h"
 #include "formats/reorder.h"

@@ -71,6 +71,8 @@ Graph read(const Input& input);
 text::Text read_text(const Input& input);
 Graph read(const Input& input, text::Text text);
 Graph read(const Inputs& inputs, const std::string& path);
+// Without what most edges of a large graph measure (formats::read_graph_thinly).
+Graph read_thinly(const Input& input);
 // For commands that read in ways of their own: the stage "read", and what it says with -v.
 void begin_reading(const std::string& path);
 void note_graph(const Graph& graph, std::string_view format, std::size_t bytes);

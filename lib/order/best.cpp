@@ -26,7 +26,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -38,6 +37,7 @@
 #include "lib/order/metis.h"
 #include "lib/order/polish.h"
 #include "lib/order/region.h"
+#include "lib/order/stopwatch.h"
 #include "lib/order/supervariables.h"
 #include "lib/order/wmf.h"
 
@@ -54,13 +54,6 @@ struct Draw {
   std::uint64_t state;
   std::uint64_t below(std::uint64_t n) { return mix(++state) % n; }
   double uniform() { return static_cast<double>(mix(++state) >> 11) * 0x1p-53; }
-};
-
-struct Clock {
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
 };
 
 // What an order is judged by: the caller's price, or else nothing, and then EC.
@@ -82,7 +75,7 @@ struct Search {
   Price price = {};               // of it
   Elimination best = {};          // the same in a postorder, once tries begin
   std::vector<double> cost = {};  // running sum of the costs of best's variables
-  Clock clock = {};
+  Stopwatch clock = {};
   double amd_seconds = 0;  // with a score
   bool wide = false;       // dissections are worth a try
 };
@@ -360,7 +353,7 @@ void take_round(Search& search, std::vector<Try>& tries, int done) {
 }  // namespace
 
 graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
-  const Clock clock;
+  const Stopwatch clock;
   Search search{pattern, options, graph::adjacency(pattern)};
   search.clock = clock;
   search.stage.assign(pattern.variables(), 0);

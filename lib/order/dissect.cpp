@@ -147,8 +147,7 @@ bool parts_nothing(const Piece& piece, const graph::Lists<>& parts) {
 // Minimum fill's order in place of another, if it is cheaper.
 void contest(const Piece& piece, Ordered& by_parts) {
   const auto ec = static_cast<double>(by_parts.found.ec);
-  const auto entries = static_cast<double>(piece.inside.items.size() + piece.around.items.size());
-  by_parts.contested = by_parts.contested && ec <= narrow * entries;
+  by_parts.contested = by_parts.contested && ec <= narrow * static_cast<double>(piece.entries());
   if (!by_parts.contested) return;
   Dissected other = by_minimum_fill(piece, static_cast<elim::Wide>(near * ec));
   by_parts.contested = !other.order.empty();

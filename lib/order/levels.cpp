@@ -1,7 +1,6 @@
 #include "lib/order/levels.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace sg::order {
@@ -40,43 +39,26 @@ Index far_end(const Piece& piece, const Search& search) {
 // What has been met is side 0, but for the separator: what of it has neighbours yet to come, which are side 1.
 struct Sweep {
   const Piece& piece;
-  Sizes sizes;
+  Tally tally;
   std::vector<Index> waits;  // of a vertex: neighbours yet to come
   std::vector<char> met;
-  std::array<std::vector<Index>, 2> meets;  // of every outer vertex: neighbours on that side
 };
 
 Sweep sweep(const Piece& piece) {
-  Sweep result{piece, {}, {}, {}, {}};
-  result.met.assign(static_cast<std::size_t>(piece.size()), false);
-  for (auto& meets : result.meets) meets.assign(piece.outer_weight.size(), 0);
-  for (Index v = 0; v < piece.size(); ++v) {
+  const auto size = static_cast<std::size_t>(piece.size());
+  Sweep result{piece, tally(piece, Separation(size, 1)), {}, std::vector<char>(size, false)};
+  for (Index v = 0; v < piece.size(); ++v)
     result.waits.push_back(static_cast<Index>(piece.inside[v].size()));
-    result.sizes.side[1] += piece.inner_weight[v];
-    for (const Index b : piece.around[v]) ++result.meets[1][b];
-  }
-  for (const int weight : piece.outer_weight) result.sizes.outer[1] += weight;
   return result;
 }
 
-void leave_separator(Sweep& s, Index v) {
-  s.sizes.separator -= s.piece.inner_weight[v];
-  s.sizes.side[0] += s.piece.inner_weight[v];
-  for (const Index b : s.piece.around[v]) {
-    if (s.meets[0][b]++ == 0) s.sizes.outer[0] += s.piece.outer_weight[b];
-  }
-}
-
 void meet(Sweep& s, Index v) {
+  const auto leave_separator = [&](Index u) { change(s.piece, u, in_separator, 0, s.tally); };
   s.met[v] = true;
-  s.sizes.side[1] -= s.piece.inner_weight[v];
-  s.sizes.separator += s.piece.inner_weight[v];
-  for (const Index b : s.piece.around[v]) {
-    if (--s.meets[1][b] == 0) s.sizes.outer[1] -= s.piece.outer_weight[b];
-  }
-  if (s.waits[v] == 0) leave_separator(s, v);
+  change(s.piece, v, 1, in_separator, s.tally);
+  if (s.waits[v] == 0) leave_separator(v);
   for (const Index u : s.piece.inside[v]) {
-    if (--s.waits[u] == 0 && s.met[u]) leave_separator(s, u);
+    if (--s.waits[u] == 0 && s.met[u]) leave_separator(u);
   }
 }
 
@@ -91,7 +73,7 @@ void try_prefixes(const Sweep& start, const Prices& prices, const std::vector<In
   Sweep s = start;
   for (std::size_t k = 0; k < sequence.size(); ++k) {
     meet(s, sequence[k]);
-    const double cost = price(prices, s.sizes);
+    const double cost = price(prices, s.tally.sizes);
     if (cost < best.price) best = {cost, &sequence, k + 1};
   }
 }

@@ -18,6 +18,7 @@ struct Piece {
   graph::Lists<> around;  // and its outer ones, by their place in `outer`
 
   Index size() const { return inside.size(); }
+  std::size_t entries() const { return inside.items.size() + around.items.size(); }
 };
 
 // The piece of these inner vertices and all their other neighbours. number: scratch space of n zeros, left as such.

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <numeric>
 #include <utility>
 
 #include "lib/order/dissect.h"
 #include "lib/order/region.h"
+#include "lib/order/stopwatch.h"
 #include "lib/order/wmf.h"
 
 namespace sg::order {
@@ -57,12 +57,9 @@ bool is_clique(const graph::Adjacency& graph, Index inner) {
   return true;
 }
 
-// A better order of a region; empty if none was found.
-graph::Order reordered(const Region& region) {
+// A better order of a region, of which this is the graph; empty if none was found.
+graph::Order reordered(const Region& region, const graph::Adjacency& graph) {
   const auto inner = static_cast<Index>(region.inside.size());
-  if (inner < 2) return {};
-  const graph::Adjacency graph = part_graph(region);
-  if (is_clique(graph, inner)) return {};
   const std::vector<int>& dim = region.pattern.dim;
   elim::Wide best = region.ec;
   graph::Order order;
@@ -78,17 +75,15 @@ graph::Order reordered(const Region& region) {
   return order;
 }
 
-// Of a clique: with the variables first that need not meet all others, so that those after them meet fewer.
-graph::Order slimmed(const Region& region) {
-  graph::Order order = reordered(region);
+// The same, or else, of a clique, with the variables first that need not meet all others, so that those after them meet
+// fewer.
+graph::Order slimmed(const Region& region, const graph::Adjacency& graph) {
+  graph::Order order = reordered(region, graph);
   if (!order.empty()) return order;
-  const auto inner = static_cast<Index>(region.inside.size());
-  const graph::Adjacency graph = part_graph(region);
-  if (is_clique(graph, inner)) return {};
   const auto joined = static_cast<std::size_t>(graph.size()) - 1;
   order.resize(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_partition(order.begin(), order.begin() + inner,
+  std::ranges::stable_partition(order.begin(), order.begin() + std::ssize(region.inside),
                                 [&](Index v) { return graph[v].size() < joined; });
   return order;
 }
@@ -99,10 +94,14 @@ bool stopped(const PolishOptions& options, double seconds) {
 
 // The order after every region has had its turn.
 graph::Order swept(const Elimination& elimination, const std::vector<Region>& regions,
-                   graph::Order (*better)(const Region&), const PolishOptions& options) {
+                   graph::Order (*better)(const Region&, const graph::Adjacency&),
+                   const PolishOptions& options) {
   std::vector<graph::Order> orders(regions.size());
   tbb::parallel_for(std::size_t{0}, regions.size(), [&](std::size_t k) {
-    if (!stopped(options, 0)) orders[k] = better(regions[k]);
+    const auto inner = static_cast<Index>(regions[k].inside.size());
+    if (stopped(options, 0) || inner < 2) return;
+    const graph::Adjacency graph = part_graph(regions[k]);
+    if (!is_clique(graph, inner)) orders[k] = better(regions[k], graph);
   });
   return recut(elimination, regions, orders);
 }
@@ -131,13 +130,13 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
                 const PolishOptions& options) {
   std::vector<bool> is_last(order.size(), false);
   for (const Index j : options.last) is_last.at(j) = true;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Elimination best = elimination(pattern, order);
   // A sweep's parts that no stop can cut short take about twice as long as this.
-  const std::chrono::duration<double> alone = std::chrono::steady_clock::now() - begin;
+  const double alone = watch.seconds();
   double before = elim::to_double(best.ec);
   const auto sweep = [&](const auto& next) {
-    if (stopped(options, 2 * alone.count())) return false;
+    if (stopped(options, 2 * alone)) return false;
     best = elimination(pattern, next(positions_left_out(best, is_last)));
     return true;
   };

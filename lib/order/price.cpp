@@ -51,23 +51,31 @@ double side_price(const Prices& prices, double w, double b) {
 
 }  // namespace
 
-Sizes sizes(const Piece& piece, const Separation& side) {
-  Sizes result;
-  std::vector<char> met(piece.outer_weight.size(), 0);  // bits: by which sides
+Tally tally(const Piece& piece, const Separation& side) {
+  Tally result;
+  for (std::vector<Index>& meets : result.meets) meets.assign(piece.outer_weight.size(), 0);
   for (Index v = 0; v < piece.size(); ++v) {
-    if (side[v] == in_separator) {
-      result.separator += piece.inner_weight[v];
-      continue;
-    }
-    result.side[side[v]] += piece.inner_weight[v];
-    for (const Index b : piece.around[v]) met[b] = static_cast<char>(met[b] | 1 << side[v]);
-  }
-  for (std::size_t b = 0; b < met.size(); ++b) {
-    for (const int k : {0, 1}) {
-      if ((met[b] >> k & 1) != 0) result.outer[k] += piece.outer_weight[b];
-    }
+    result.sizes.separator += piece.inner_weight[v];
+    if (side[v] != in_separator) change(piece, v, in_separator, side[v], result);
   }
   return result;
+}
+
+void change(const Piece& piece, Index v, char from, char to, Tally& tally) {
+  Sizes& sizes = tally.sizes;
+  const int weight = piece.inner_weight[v];
+  (from == in_separator ? sizes.separator : sizes.side[from]) -= weight;
+  (to == in_separator ? sizes.separator : sizes.side[to]) += weight;
+  for (const Index b : piece.around[v]) {
+    if (from != in_separator && --tally.meets[from][b] == 0) {
+      sizes.outer[from] -= piece.outer_weight[b];
+    }
+    if (to != in_separator && tally.meets[to][b]++ == 0) sizes.outer[to] += piece.outer_weight[b];
+  }
+}
+
+Sizes sizes(const Piece& piece, const Separation& side) {
+  return tally(piece, side).sizes;
 }
 
 Prices prices(const Piece& piece, double separator) {

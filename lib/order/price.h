@@ -32,6 +32,15 @@ struct Sizes {
 };
 Sizes sizes(const Piece& piece, const Separation& side);
 
+// The same while vertices change sides.
+struct Tally {
+  Sizes sizes;
+  std::array<std::vector<Index>, 2> meets;  // of every outer vertex: neighbours on that side
+};
+Tally tally(const Piece& piece, const Separation& side);
+// Vertex v goes from a side, or the separator, to another.
+void change(const Piece& piece, Index v, char from, char to, Tally& tally);
+
 struct Prices {
   double outer;                                 // scalars of the piece's outer vertices
   double step;                                  // between entries of the table

@@ -13,8 +13,7 @@ struct Refinement {
   const Piece& piece;
   const Prices& prices;
   Separation& side;
-  Sizes sizes;
-  std::array<std::vector<Index>, 2> meets;  // of every outer vertex: neighbours on that side
+  Tally tally;  // of it
 
   // Of vertices in the separator: weight of the neighbours on each side.
   std::vector<std::array<int, 2>> pull;
@@ -52,18 +51,9 @@ Index top(Refinement& r, int to) {
   return -1;
 }
 
-// Puts v on another side, or into the separator: what sizes and outer vertices know of it.
+// Puts v on another side, or into the separator.
 void assign(Refinement& r, Index v, char to) {
-  const char from = std::exchange(r.side[v], to);
-  const int weight = r.piece.inner_weight[v];
-  (from == in_separator ? r.sizes.separator : r.sizes.side[from]) -= weight;
-  (to == in_separator ? r.sizes.separator : r.sizes.side[to]) += weight;
-  for (const Index b : r.piece.around[v]) {
-    if (from != in_separator && --r.meets[from][b] == 0) {
-      r.sizes.outer[from] -= r.piece.outer_weight[b];
-    }
-    if (to != in_separator && r.meets[to][b]++ == 0) r.sizes.outer[to] += r.piece.outer_weight[b];
-  }
+  change(r.piece, v, std::exchange(r.side[v], to), to, r.tally);
 }
 
 void list(Refinement& r, Index v) {
@@ -108,7 +98,7 @@ void move(Refinement& r, Index v, int to) {
 }
 
 double price_of_move(const Refinement& r, Index v, int to) {
-  Sizes after = r.sizes;
+  Sizes after = r.tally.sizes;
   after.separator -= loss(r, v, to);
   after.side[to] += r.piece.inner_weight[v];
   after.side[1 - to] -= r.pull[v][1 - to];
@@ -151,7 +141,7 @@ double run_pass(Refinement& r, double before, int patience) {
     const int to = cost[1] < cost[0] ? 1 : 0;
     if (cost[to] == std::numeric_limits<double>::infinity()) break;
     move(r, v[to], to);
-    const double now = price(r.prices, r.sizes);
+    const double now = price(r.prices, r.tally.sizes);
     if (now < best) {
       best = now;
       best_length = r.trail.size();
@@ -163,22 +153,13 @@ double run_pass(Refinement& r, double before, int patience) {
 }
 
 Refinement refinement(const Piece& piece, const Prices& prices, Separation& side) {
-  const std::size_t n = side.size(), outer = piece.outer_weight.size();
-  Refinement r{piece, prices, side, {}, {}, {}, {}, {}, {}, 0, {}, {}};
-  for (std::vector<Index>& meets : r.meets) meets.assign(outer, 0);
+  const std::size_t n = side.size();
+  Refinement r{piece, prices, side, tally(piece, side), {}, {}, {}, {}, 0, {}, {}};
   r.pull.resize(n);
   r.moved.assign(n, 0);
   r.listed.assign(n, 0);
   for (Index v = 0; v < piece.size(); ++v) {
-    if (side[v] == in_separator) {
-      r.sizes.separator += piece.inner_weight[v];
-      r.separator.push_back(v);
-      continue;
-    }
-    r.sizes.side[side[v]] += piece.inner_weight[v];
-    for (const Index b : piece.around[v]) {
-      if (r.meets[side[v]][b]++ == 0) r.sizes.outer[side[v]] += piece.outer_weight[b];
-    }
+    if (side[v] == in_separator) r.separator.push_back(v);
   }
   return r;
 }
@@ -188,7 +169,7 @@ Refinement refinement(const Piece& piece, const Prices& prices, Separation& side
 double refine(const Piece& piece, const Prices& prices, int passes, int patience,
               Separation& side) {
   Refinement r = refinement(piece, prices, side);
-  double cost = price(prices, r.sizes);
+  double cost = price(prices, r.tally.sizes);
   for (int k = 0; k < passes; ++k) {
     const double before = std::exchange(cost, run_pass(r, cost, patience));
     if (cost >= before) break;

@@ -45,8 +45,8 @@ void improve(const Piece& piece, const Prices& prices, Candidate& best) {
 
 // How many tries a piece is worth: the more, the more each of its edges will cost.
 int worthwhile(const Piece& piece, double price) {
-  const auto entries = static_cast<double>(piece.inside.items.size() + piece.around.items.size());
-  return static_cast<int>(std::clamp(std::log10(price / entries) - 4.2, 1.0, 3.0));
+  const double an_entry = price / static_cast<double>(piece.entries());
+  return static_cast<int>(std::clamp(std::log10(an_entry) - 4.2, 1.0, 3.0));
 }
 
 }  // namespace

@@ -84,8 +84,7 @@ struct Isam2 {
   Index rows = 0;       // factors that have entered, the gauge's row included
 
   // By variable; steps by scalar (Problem::step_at).
-  graph::Lists<>
-      columns;  // the rows of the problem's pattern; rows_of() says which are a variable's
+  graph::Lists<> columns;         // rows as the problem has them (rows_of)
   factor::Values linearized;      // Theta, by vertex as all Values
   factor::Values estimate;        // Theta (+) Delta
   std::vector<double> step;       // Delta
@@ -98,8 +97,8 @@ struct Isam2 {
   std::vector<bool> pinned;       // keeps its linearization point (isam2_leave.h)
   std::vector<Index> past;        // cliques kept of variables that have left, in that order
   std::vector<Index> candidates;  // with a step of beta or more, or unseen
-  std::vector<std::vector<Index>>
-      changed_rows;  // instead of `columns`, once a row has changed hands (isam2_keyframes.h)
+  // Instead of `columns`, once a row has changed hands (isam2_keyframes.h).
+  std::vector<std::vector<Index>> changed_rows;
 
   // By row of the problem's pattern.
   std::vector<Index> row_update;  // that last linearized it

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "lib/order/stopwatch.h"
 #include "lib/solve/isam2_admit.h"
 #include "lib/solve/isam2_leave.h"
-#include "lib/solve/stopwatch.h"
 
 namespace sg::solve {
 namespace {
@@ -179,7 +179,7 @@ void carry_out(Isam2Replay& replay, Admission& admission, Choice& choice, elim::
   for (const Admission::Held& held : choice.out) give_back(isam, admission, held);
   drop_homeless(isam, choice);
   Entering in = entering(choice);
-  const Stopwatch watch;
+  const order::Stopwatch watch;
   CliqueTree plan = plan_top(isam, in.variables, in.rows);
   double planning = watch.seconds();
   while (ec_after(isam, plan, {}) > budget) {
@@ -269,7 +269,7 @@ Admitted admit(Isam2Replay& replay, Admission& admission, std::span<const Offer>
                elim::Wide budget, Isam2Report& report) {
   Admitted result;
   if (offers.empty() && replay.isam.tree.ec_bt <= budget) return result;
-  const Stopwatch watch;
+  const order::Stopwatch watch;
   std::vector<Bid> bids;
   for (const Offer& offer : offers) {
     admission.offered += static_cast<Index>(offer.edges.size());

@@ -3,11 +3,59 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/order/stopwatch.h"
 #include "lib/solve/isam2_leave.h"
-#include "lib/solve/stopwatch.h"
 
 namespace sg::solve {
 namespace {
+
+// Whether vertex v, which is no pose, is in the window.
+bool is_present(const Isam2Window& window, Index v) {
+  return window.replay.poses.index[v] < 0 && window.last_seen[v] >= 0 && !window.left[v];
+}
+
+// Variables that the next turn would let go.
+std::vector<Index> next_to_leave(const Isam2Window& window, Index k) {
+  const Index pose = window.replay.poses.pose[window.first];
+  const bool newest = window.first == k;
+  std::vector<Index> variables;
+  const auto leaves = [&](Index v) {
+    const Index j = window.replay.problem->variables.vertex_variable[v];
+    if (j >= 0 && !window.left[v] && std::ranges::find(variables, j) == variables.end())
+      variables.push_back(j);
+  };
+  for (Index e : window.edges_of[pose]) {
+    for (Index v : window.replay.problem->graph->edge(e)) {
+      if (!is_present(window, v) || window.last_seen[v] > window.first) continue;
+      if (newest && !variables.empty()) continue;  // one of them
+      leaves(v);
+    }
+  }
+  if (!newest) leaves(pose);
+  return variables;
+}
+
+// What it would free of EC_BT, by the tree as it is.
+double freed_by_turn(const Isam2Window& window, Index k) {
+  double sum = 0;
+  for (const Index j : next_to_leave(window, k)) sum += freed_by(window.replay.isam, j);
+  return sum;
+}
+
+void add_turn(Isam2Window& window, Index k, Leaving& leaving) {
+  const bool pose = window.first < k;
+  leaving.turn.push_back({leaving.variables.size(), window.first, pose, freed_by_turn(window, k)});
+  for (const Index j : next_to_leave(window, k)) {
+    window.left[window.replay.problem->variables.variable_vertex[j]] = true;
+    window.replay.isam.leaving[j] = true;
+    leaving.variables.push_back(j);
+  }
+  if (!pose) return;
+  --window.there;
+  do {
+    ++window.first;
+  } while (is_composed(window.keyframes, window.first));
+}
 
 void last_stays(Isam2Window& window, Leaving& leaving) {
   const Leaving::Turn turn = leaving.turn.back();
@@ -54,51 +102,6 @@ bool is_too_old(const Isam2Window& window, Index pose, Index k) {
 
 }  // namespace
 
-bool is_present(const Isam2Window& window, Index v) {
-  return window.replay.poses.index[v] < 0 && window.last_seen[v] >= 0 && !window.left[v];
-}
-
-std::vector<Index> next_to_leave(const Isam2Window& window, Index k) {
-  const Index pose = window.replay.poses.pose[window.first];
-  const bool newest = window.first == k;
-  std::vector<Index> variables;
-  const auto leaves = [&](Index v) {
-    const Index j = window.replay.problem->variables.vertex_variable[v];
-    if (j >= 0 && !window.left[v] && std::ranges::find(variables, j) == variables.end())
-      variables.push_back(j);
-  };
-  for (Index e : window.edges_of[pose]) {
-    for (Index v : window.replay.problem->graph->edge(e)) {
-      if (!is_present(window, v) || window.last_seen[v] > window.first) continue;
-      if (newest && !variables.empty()) continue;  // one of them
-      leaves(v);
-    }
-  }
-  if (!newest) leaves(pose);
-  return variables;
-}
-
-double freed_by_turn(const Isam2Window& window, Index k) {
-  double sum = 0;
-  for (const Index j : next_to_leave(window, k)) sum += freed_by(window.replay.isam, j);
-  return sum;
-}
-
-void add_turn(Isam2Window& window, Index k, Leaving& leaving) {
-  const bool pose = window.first < k;
-  leaving.turn.push_back({leaving.variables.size(), window.first, pose, freed_by_turn(window, k)});
-  for (const Index j : next_to_leave(window, k)) {
-    window.left[window.replay.problem->variables.variable_vertex[j]] = true;
-    window.replay.isam.leaving[j] = true;
-    leaving.variables.push_back(j);
-  }
-  if (!pose) return;
-  --window.there;
-  do {
-    ++window.first;
-  } while (is_composed(window.keyframes, window.first));
-}
-
 Index turns_by_age(const Isam2Window& window, Index k) {
   Index turns = 0;
   for (Index pose = window.first; pose < k && is_too_old(window, pose, k); ++pose)
@@ -112,7 +115,7 @@ CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Ind
   while (leaving.turns() > turns) last_stays(window, leaving);
   mark_leaving(window.replay.isam, leaving.variables);
   ++window.plans;
-  const Stopwatch watch;
+  const order::Stopwatch watch;
   CliqueTree plan = plan_top(window.replay.isam, entering.variables, entering.rows);
   window.planning = watch.seconds();
   return plan;

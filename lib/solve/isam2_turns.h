@@ -20,15 +20,6 @@ struct Leaving {
   Index turns() const { return static_cast<Index>(turn.size()); }
 };
 
-// Whether vertex v, which is no pose, is in the window.
-bool is_present(const Isam2Window& window, Index v);
-
-// Variables that the next turn would let go; what it would free of EC_BT, by the tree as it is.
-std::vector<Index> next_to_leave(const Isam2Window& window, Index k);
-double freed_by_turn(const Isam2Window& window, Index k);
-
-void add_turn(Isam2Window& window, Index k, Leaving& leaving);
-
 // How many turns let those go that are too old.
 Index turns_by_age(const Isam2Window& window, Index k);
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "lib/order/stopwatch.h"
 #include "lib/solve/isam2_leave.h"
 #include "lib/solve/isam2_spend.h"
 #include "lib/solve/isam2_turns.h"
 #include "lib/solve/landmark_point.h"
-#include "lib/solve/stopwatch.h"
 
 namespace sg::solve {
 namespace {
@@ -224,7 +224,7 @@ Isam2Report update(Isam2Window& window, const Step& step, Index k) {
     ++window.renewed;
   }
   Leaving leaving;
-  const Stopwatch watch;
+  const order::Stopwatch watch;
   const CliqueTree made = plan(window, entering, k, leaving);
   window.choosing += watch.seconds() - window.planning;
   carry_out(window, entering, made, leaving, report);
@@ -241,10 +241,6 @@ void let_poses_go(Isam2Window& window, Index k, Isam2Report& report) {
   const CliqueTree made = plan_within(window, {}, k, 0, leaving);
   carry_out(window, {}, made, leaving, report);
 }
-
-}  // namespace
-
-namespace {
 
 Isam2Report step_at(Isam2Window& window, Index k) {
   Step step = entering_at(window, k);
@@ -266,7 +262,7 @@ Isam2Report step_at(Isam2Window& window, Index k) {
 }  // namespace
 
 Isam2Report window_step(Isam2Window& window, Index k) {
-  const Stopwatch watch;
+  const order::Stopwatch watch;
   const double before = window.admission.choosing;
   Isam2Report report = step_at(window, k);
   window.choosing += window.admission.choosing - before;

@@ -47,10 +47,10 @@ struct WindowOptions {
 // What is known of what a budget is best spent on (isam2_spend.h).
 struct Spending {
   Returns returns;
-  std::vector<double>
-      losses;  // by pose index: of composing it, when last looked at; infinite once it is
-  std::vector<Index> stays;  // by pose index: in which step it could not be composed, -1
-  bool rays = false;         // landmarks are seen along rays
+  bool rays = false;  // landmarks are seen along rays
+  // By pose index: what composing it loses, when last looked at, infinite once it is; the step in which it could not be, -1.
+  std::vector<double> losses;
+  std::vector<Index> stays;
   std::vector<std::pair<Index, Index>> ages;  // of this step's edges, what they name: edge and age
 };
 
@@ -73,9 +73,9 @@ struct Isam2Window {
   Spending spending;
   Index usual_turns = 0;  // beyond what is too old, of the last step
   Index plans = 0;        // made so far
-  double planning = 0;    // seconds that the last plan took
+  double planning = 0;    // seconds of the last plan
   double choosing =
-      0;  // seconds so far of pricing and choosing: all but the plans that were carried out
+      0;  // seconds so far of pricing and choosing: of all but the plans that were carried out
   double working = 0;  // seconds so far of all steps
   Renewal renewal;
   Index renewed = 0;              // steps that ordered the whole anew

@@ -1,9 +1,9 @@
-// Seconds by the wall clock, for shares of a time alone: a clock of the processor may tick in milliseconds.
+// Seconds by the wall clock: for budgets, and for shares of a time.
 #pragma once
 
 #include <chrono>
 
-namespace sg::solve {
+namespace sg::order {
 
 class Stopwatch {
  public:
@@ -15,4 +15,4 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace sg::solve
+}  // namespace sg::order
