@@ -144,8 +144,9 @@ bool parts_nothing(const Piece& piece, const graph::Lists<>& parts) {
   return largest > largest_part * piece.size();
 }
 
-// Minimum fill's order in place of another, if it is cheaper.
+// Minimum fill's order in place of another, if it is cheaper. Where nothing is around, that is for the caller to try.
 void contest(const Piece& piece, Ordered& by_parts) {
+  if (piece.outer.empty()) return;
   const auto ec = static_cast<double>(by_parts.found.ec);
   by_parts.contested = by_parts.contested && ec <= narrow * static_cast<double>(piece.entries());
   if (!by_parts.contested) return;

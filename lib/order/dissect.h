@@ -4,7 +4,7 @@
 // Separators (separator.h) part the graph again and again. Small pieces are ordered by a greedy pass that knows what is
 // around them (fill_graph.h): what a piece costs depends on no other, so that the elimination complexity of all is the sum of
 // what the pieces say. Larger ones are ordered so, too, as long as that comes near in one of their parts, and the cheaper
-// order stays.
+// order stays; but not a whole graph, whose minimum fill is for the caller to try.
 //
 // Time: every level of pieces looks at every edge a few dozen times, and there are about log2(n / 300) levels. Memory
 // O(n + m). One thread; the same order on any machine with the same METIS.
