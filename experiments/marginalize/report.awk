@@ -3,7 +3,7 @@
 # memory, then all ways by graph.
 BEGIN { FS = "\t" }
 FNR == 1 { ++file; next }
-file == 1 { row[++n] = $0; graph[n] = $1; rate[n] = $2; way[n] = $3; ec[n] = $7; kld[n] = $8; ate[n] = $10; at[$1, $2, $3] = n }
+file == 1 { row[++n] = $0; graph[n] = $1; rate[n] = $2; way[n] = $3; ec[n] = $7; kld[n] = $8; ate[n] = $10; spent[n] = $11; at[$1, $2, $3] = n }
 file == 2 { poses[++m] = $1; growing[m] = $2; seconds[m] = $3; peak[m] = $4 }
 function number(x, digits) { return x == "" || x == "-" ? "-" : sprintf("%." digits "g", x) }
 function ours(i) { return way[i] ~ /^ec@/ }
@@ -31,7 +31,7 @@ function dominated(i,   j) {
 }
 function losses(   i, j, dense, least, most, times) {
   for (i = 1; i <= n; ++i) {
-    if (!scored(i)) { printf "- %s, rate %s, %s: no result.\n", graph[i], rate[i], way[i]; ++no_result; continue }
+    if (!scored(i)) { printf "- %s, rate %s, %s: no result%s.\n", graph[i], rate[i], way[i], spent[i] ~ /^>/ ? " in " substr(spent[i], 2) " s of processor time" : ""; continue }
     if (ours(i)) continue
     ++rivals[graph[i]]; ++all
     j = best_beside(i)

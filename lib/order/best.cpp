@@ -16,7 +16,8 @@
 //
 // A try depends on its number, the seed, and the best order at the start of its round, not on
 // threads or time: a budget in tries gives the same order everywhere. With a budget in seconds,
-// methods and tries that would outlast it by what amd took are left out.
+// methods and tries that would outlast it by what amd took are left out; where amd itself would, a
+// coarse dissection (coarse.h) is all there is.
 //
 // What is minimized is EC, or a price that the caller has for whole orders (OrderOptions): then tries
 // still look for lower EC, and what they find is taken where it lowers the price.
@@ -32,6 +33,9 @@
 #include <string_view>
 #include <utility>
 
+#include "lib/order/amd.h"
+#include "lib/order/coarse.h"
+#include "lib/order/constraint.h"
 #include "lib/order/dissect.h"
 #include "lib/order/methods.h"
 #include "lib/order/metis.h"
@@ -48,6 +52,10 @@ constexpr int tries_a_round = 16;
 constexpr int restarts_at_first = 16;
 constexpr std::size_t polished_methods = 4;
 constexpr double pass_effort = 10;  // of ordering a graph anew, in the time of amd
+// Of amd with a score, in the time of listing all neighbours, at most.
+constexpr double amd_effort = 8;
+constexpr Index large = 50'000;  // variables of a graph that amd orders in no time
+constexpr Index coarse_parts = 8;
 
 // Pseudo-random numbers of one try.
 struct Draw {
@@ -252,11 +260,31 @@ struct Found {
   Price price;
 };
 
-Found found_by(const Search& search, const Ordering& method) {
-  graph::Order order = elimination_order(method, search.pattern, search.options);
+Found scored(const Search& search, graph::Order&& order) {
   const elim::Wide ec = elim::elimination_complexity(search.pattern, order);
   const Price price = price_of(search, order, ec);
   return {std::move(order), price};
+}
+
+Found found_by(const Search& search, const Ordering& method) {
+  return scored(search, elimination_order(method, search.pattern, search.options));
+}
+
+// Whether there is time for amd, by a guess.
+bool amd_lasts(Search& search) {
+  search.amd_seconds = amd_effort * search.clock.seconds();
+  return search.graph.size() <= large || lasts(search, search.amd_seconds);
+}
+
+// In place of all methods where not even amd would last.
+std::vector<Found> take_coarse(Search& search) {
+  graph::Order order = coarse_dissection(search.graph, search.graph.size() / coarse_parts);
+  move_to_end(order, search.options.last);
+  std::vector<Found> found;
+  found.push_back(scored(search, std::move(order)));
+  take(search, found.front().order, found.front().price);
+  report(search, "coarse", 0);
+  return found;
 }
 
 // Calls work(k) for 0 .. count - 1 on all threads, and begins them in this order.
@@ -281,7 +309,7 @@ std::vector<Found> take_best_method(Search& search) {
   const auto measure =
       static_cast<std::size_t>(std::ranges::find_if(methods, is_amd) - methods.begin());
   const double start = search.clock.seconds();
-  found[measure] = found_by(search, *methods[measure]);
+  found[measure] = scored(search, minimum_degree(search.graph, search.options.last));
   search.amd_seconds = search.clock.seconds() - start;
   const bool wide = is_wide(search.graph, found[measure].price.ec);
 
@@ -358,7 +386,8 @@ graph::Order best(const graph::Pattern& pattern, const OrderOptions& options) {
   search.clock = clock;
   search.stage.assign(pattern.variables(), 0);
   for (Index j : options.last) search.stage.at(j) = 1;
-  const std::vector<Found> methods = take_best_method(search);
+  const std::vector<Found> methods =
+      amd_lasts(search) ? take_best_method(search) : take_coarse(search);
   if (pattern.variables() == 0) return {};
   take_best_polished(search, methods);
   const Budget& budget = options.budget;

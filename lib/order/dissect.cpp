@@ -26,20 +26,6 @@ struct Graph {
   std::vector<Index> number;  // scratch: n zeros
 };
 
-// The piece's graph and what is around it, which comes last.
-graph::Adjacency with_outer(const Piece& piece) {
-  graph::Adjacency all;
-  for (Index v = 0; v < piece.size(); ++v) {
-    all.items.insert(all.items.end(), piece.inside[v].begin(), piece.inside[v].end());
-    for (const Index b : piece.around[v]) all.items.push_back(piece.size() + b);
-    all.close();
-  }
-  const graph::Lists<> back =
-      graph::transpose(piece.around, static_cast<Index>(piece.outer.size()));
-  for (Index b = 0; b < back.size(); ++b) all.add(back[b]);
-  return all;
-}
-
 // An order of a piece, and whether minimum fill comes near it, or did in a part.
 struct Ordered {
   Dissected found;

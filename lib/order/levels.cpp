@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lib/order/breadth_first.h"
+
 namespace sg::order {
 namespace {
 
@@ -12,16 +14,8 @@ struct Search {
 };
 
 Search breadth_first(const Piece& piece, Index root) {
-  Search result{{root}, std::vector<Index>(static_cast<std::size_t>(piece.size()), -1)};
-  result.distance[root] = 0;
-  for (std::size_t at = 0; at < result.sequence.size(); ++at) {
-    const Index v = result.sequence[at];
-    for (const Index u : piece.inside[v]) {
-      if (result.distance[u] >= 0) continue;
-      result.distance[u] = result.distance[v] + 1;
-      result.sequence.push_back(u);
-    }
-  }
+  Search result{{}, std::vector<Index>(static_cast<std::size_t>(piece.size()), not_met)};
+  order::breadth_first(piece.inside, root, 0, result.distance, result.sequence);
   return result;
 }
 

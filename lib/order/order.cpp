@@ -4,6 +4,7 @@
 #include <cassert>
 #include <string>
 
+#include "lib/order/constraint.h"
 #include "lib/order/methods.h"
 #include "lib/text/error.h"
 #include "lib/text/nearest.h"
@@ -28,12 +29,6 @@ constexpr Ordering table[] = {
     {"best", "the best of all, improved until --budget is used up", methods::best},
     {"random", "at random, by --seed", methods::random},
 };
-
-void move_to_end(graph::Order& order, const std::vector<Index>& last) {
-  std::vector<bool> is_last(order.size(), false);
-  for (Index j : last) is_last.at(j) = true;
-  std::stable_partition(order.begin(), order.end(), [&](Index j) { return !is_last[j]; });
-}
 
 }  // namespace
 

@@ -30,7 +30,7 @@ Budget parse_budget(std::string_view text, std::string_view option = "--budget")
 
 // A better order, as soon as an anytime ordering has found it.
 struct Improvement {
-  std::string_view how;  // a method's name, "polish", "restart" or "local"
+  std::string_view how;  // a method's name, "coarse", "polish", "restart" or "local"
   int tries;             // so far
   double seconds;        // so far
   elim::Wide ec;

@@ -33,6 +33,19 @@ Piece piece(const graph::Lists<>& adjacency, const std::vector<int>& weight,
   return result;
 }
 
+graph::Lists<> with_outer(const Piece& piece) {
+  graph::Lists<> all;
+  for (Index v = 0; v < piece.size(); ++v) {
+    all.items.insert(all.items.end(), piece.inside[v].begin(), piece.inside[v].end());
+    for (const Index b : piece.around[v]) all.items.push_back(piece.size() + b);
+    all.close();
+  }
+  const graph::Lists<> back =
+      graph::transpose(piece.around, static_cast<Index>(piece.outer.size()));
+  for (Index b = 0; b < back.size(); ++b) all.add(back[b]);
+  return all;
+}
+
 graph::Lists<> parts(const Piece& piece, const Separation& side) {
   graph::Lists<> result;
   std::vector<char> seen(side.size());

@@ -25,6 +25,9 @@ struct Piece {
 Piece piece(const graph::Lists<>& adjacency, const std::vector<int>& weight,
             std::vector<Index> inner, std::vector<Index>& number);
 
+// The piece's graph and what is around it, which comes last.
+graph::Lists<> with_outer(const Piece& piece);
+
 // What parts a piece: of every inner vertex 0 or 1, the side it is on, or 2, in the separator. No edge joins the sides.
 using Separation = std::vector<char>;
 constexpr char in_separator = 2;

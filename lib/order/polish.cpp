@@ -92,14 +92,14 @@ bool stopped(const PolishOptions& options, double seconds) {
   return options.stop && options.stop(seconds);
 }
 
-// The order after every region has had its turn.
+// The order after every region has had its turn that there was time for, and for the seconds that it takes afterwards.
 graph::Order swept(const Elimination& elimination, const std::vector<Region>& regions,
                    graph::Order (*better)(const Region&, const graph::Adjacency&),
-                   const PolishOptions& options) {
+                   const PolishOptions& options, double afterwards) {
   std::vector<graph::Order> orders(regions.size());
   tbb::parallel_for(std::size_t{0}, regions.size(), [&](std::size_t k) {
     const auto inner = static_cast<Index>(regions[k].inside.size());
-    if (stopped(options, 0) || inner < 2) return;
+    if (stopped(options, afterwards) || inner < 2) return;
     const graph::Adjacency graph = part_graph(regions[k]);
     if (!is_clique(graph, inner)) orders[k] = better(regions[k], graph);
   });
@@ -132,8 +132,8 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
   for (const Index j : options.last) is_last.at(j) = true;
   const Stopwatch watch;
   Elimination best = elimination(pattern, order);
-  // A sweep's parts that no stop can cut short take about twice as long as this.
-  const double alone = watch.seconds();
+  // What no stop can cut short of a sweep: about this before its regions, and as much after them.
+  const double alone = 2 * watch.seconds();
   double before = elim::to_double(best.ec);
   const auto sweep = [&](const auto& next) {
     if (stopped(options, 2 * alone)) return false;
@@ -146,7 +146,7 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
     for (const Index least : sizes) {
       const auto size = static_cast<Index>(scale * least);
       const auto by_regions = [&](const auto& out) {
-        return swept(best, cut(best, size, out), reordered, options);
+        return swept(best, cut(best, size, out), reordered, options, alone);
       };
       if (!sweep(by_regions)) break;
     }
@@ -160,7 +160,7 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
     before = after;
   }
   const auto by_cliques = [&](const auto& out) {
-    return swept(best, cliques(best, out), slimmed, options);
+    return swept(best, cliques(best, out), slimmed, options, alone);
   };
   for (elim::Wide last = 0; best.ec != last;) {
     last = best.ec;

@@ -25,8 +25,8 @@ namespace sg::order {
 
 struct PolishOptions {
   std::vector<Index> last;  // variables that stay behind all others, where the order has them
-  // Whether there is no time for what takes about so many seconds: asked before every sweep, and before every region
-  // (with 0) by any thread. May be empty.
+  // Whether there is no time for what takes about so many seconds: asked before every sweep, and before every region by any
+  // thread. May be empty.
   std::function<bool(double seconds)> stop = {};
   int rounds = 6;  // at most, each of sweeps of all sizes and exchanges
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lib/order/amd.h"
 #include "lib/order/dissect.h"
 #include "lib/order/fill_graph.h"
 #include "lib/order/methods.h"
@@ -288,7 +289,7 @@ graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
     greedy.stage = stages(pattern.variables(), options.last);
     return greedy_fill(pattern, graph, greedy).order;
   }
-  GreedyResult amd{elimination_order("amd", pattern), 0, 0};
+  GreedyResult amd{minimum_degree(graph), 0, 0};
   amd.ec = elim::elimination_complexity(pattern, amd.order);
   const elim::Wide by_amd = amd.ec;
   const std::int64_t size = entries(graph);
