@@ -2,12 +2,14 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/factor/gauge.h"
 #include "lib/factor/motion.h"
 #include "lib/geometry/se2.h"
-#include "lib/sparse/least_squares.h"
+#include "lib/solve/least_squares.h"
 
 namespace sg::solve {
 namespace {
@@ -32,10 +34,12 @@ struct Relaxation {
   const factor::Problem& problem;
   factor::Values& values;
   std::vector<MotionEdge> edges;
-  std::vector<Index> at;  // of every vertex: d numbers of R, of a pose, then one of t; -1: it stays
-  sparse::LeastSquares system{0, d};
+  std::vector<Index>
+      unknown;  // of every vertex: d numbers of R, of a pose, then one of t; -1: it stays
+  LeastSquares system;
 
   bool is_pose(Index v) const { return v != world && problem.graph->role(v) == graph::Role::pose; }
+  bool stays(Index v) const { return v == world || unknown[v] < 0; }
   Rotation rotation(Index v) const {
     return factor::rotation(problem, values, v).template topLeftCorner<d, d>();
   }
@@ -47,40 +51,59 @@ struct Relaxation {
   }
 };
 
-// a' x = b, for each of the d rows x.
+// A x = B, of the d columns x of what is unknown.
 template <int d>
-struct Equation {
-  std::vector<sparse::Term> a;
-  Eigen::Matrix<double, d, 1> b = Eigen::Matrix<double, d, 1>::Zero();
+struct Equations {
+  Eigen::Matrix<double, d + 1, Eigen::Dynamic, 0, d + 1, 2 * (d + 1)> A;
+  Eigen::Matrix<double, d + 1, d> B = Eigen::Matrix<double, d + 1, d>::Zero();
+  int rows = 0;
 };
 
-// Adds `factor` times column c of v's [R t].
+// Adds to the last equation `factor` times column c of the [R t] of v, whose numbers are from this column of A on.
 template <int d>
-void add_column(const Relaxation<d>& relaxation, Index v, int c, double factor,
-                Equation<d>& equation) {
+void add_column(const Relaxation<d>& relaxation, Index v, int column, int c, double factor,
+                Equations<d>& equations) {
+  const int row = equations.rows - 1;
   const bool turns = relaxation.is_pose(v);
-  if (v != world && relaxation.at[v] >= 0 && (turns || c == d)) {
-    equation.a.push_back({relaxation.at[v] + (turns ? c : 0), factor});
+  if (!relaxation.stays(v) && (turns || c == d)) {
+    equations.A(row, column + (turns ? c : 0)) += factor;
   } else {
-    equation.b -= factor * relaxation.known_column(v, c);
+    equations.B.row(row) -= factor * relaxation.known_column(v, c);
   }
 }
 
 template <int d>
 void add_edge(Relaxation<d>& relaxation, const MotionEdge& edge) {
   const auto& [i, j, motion] = edge;
+  std::vector<Index> variables;
+  int columns = 0;
+  const auto take_in = [&](Index v) {
+    const int first = columns;
+    if (relaxation.stays(v)) return first;
+    variables.push_back(relaxation.unknown[v]);
+    columns += relaxation.is_pose(v) ? d + 1 : 1;
+    return first;
+  };
+  const int of_i = take_in(i), of_j = take_in(j);
+  if (variables.empty()) return;
+  Equations<d> equations;
+  equations.A.setZero(d + 1, columns);
   for (int a = 0; a < d && motion.turn_information > 0; ++a) {
-    Equation<d> turn;
-    add_column(relaxation, j, a, 1, turn);
-    for (int c = 0; c < d; ++c) add_column(relaxation, i, c, -motion.R(c, a), turn);
-    add_square(relaxation.system, motion.turn_information / 2, turn.a, {turn.b.data(), d});
+    const double root = std::sqrt(motion.turn_information / 2);
+    ++equations.rows;
+    add_column(relaxation, j, of_j, a, root, equations);
+    for (int c = 0; c < d; ++c)
+      add_column(relaxation, i, of_i, c, -root * motion.R(c, a), equations);
   }
-  if (!(motion.place_information > 0)) return;
-  Equation<d> place;
-  add_column(relaxation, j, d, 1, place);
-  add_column(relaxation, i, d, -1, place);
-  for (int c = 0; c < d; ++c) add_column(relaxation, i, c, -motion.t[c], place);
-  add_square(relaxation.system, motion.place_information, place.a, {place.b.data(), d});
+  if (motion.place_information > 0) {
+    const double root = std::sqrt(motion.place_information);
+    ++equations.rows;
+    add_column(relaxation, j, of_j, d, root, equations);
+    add_column(relaxation, i, of_i, d, -root, equations);
+    for (int c = 0; c < d; ++c) add_column(relaxation, i, of_i, c, -root * motion.t[c], equations);
+  }
+  add_row(relaxation.system, variables, equations.A.topRows(equations.rows),
+          equations.B.topRows(equations.rows));
 }
 
 // Those that say something; priors of places alone hold no rotation, and are for later.
@@ -105,15 +128,15 @@ template <int d>
 Relaxation<d> make_relaxation(const factor::Problem& problem, factor::Values& values) {
   const Graph& graph = *problem.graph;
   std::vector<bool> left_out(graph.edges(), true);
-  Relaxation<d> result{problem, values, motion_edges(problem, d, left_out), {}};
+  Relaxation<d> result{problem, values, motion_edges(problem, d, left_out), {}, {}};
   const std::vector<bool> stays = factor::anchors(problem, left_out);
-  Index unknowns = 0;
+  std::vector<int> dim;
   for (Index v = 0; v < graph.vertices(); ++v) {
     const bool known = stays[v] || dimensions(problem.space[v]) != d;
-    result.at.push_back(known ? -1 : unknowns);
-    if (!known) unknowns += result.is_pose(v) ? d + 1 : 1;
+    result.unknown.push_back(known ? -1 : static_cast<Index>(dim.size()));
+    if (!known) dim.push_back(result.is_pose(v) ? d + 1 : 1);
   }
-  result.system = sparse::LeastSquares(unknowns, d);
+  result.system = make_least_squares(std::move(dim), d);
   for (const MotionEdge& edge : result.edges) add_edge(result, edge);
   return result;
 }
@@ -133,16 +156,13 @@ Eigen::Matrix<double, d, d> nearest_rotation(const Eigen::Matrix<double, d, d>& 
 
 // Turns the poses to their rows of x. How far, squared, on average.
 template <int d>
-double project(Relaxation<d>& relaxation, const std::vector<double>& x) {
+double project(Relaxation<d>& relaxation, const Triangle& factor, const Rows& x) {
   double sum = 0, count = 0;
-  for (std::size_t v = 0; v < relaxation.at.size(); ++v) {
+  for (std::size_t v = 0; v < relaxation.unknown.size(); ++v) {
     const auto vertex = static_cast<Index>(v);
-    if (relaxation.at[v] < 0 || !relaxation.is_pose(vertex)) continue;
-    Eigen::Matrix<double, d, d> M;
-    for (int k = 0; k < d; ++k) {
-      for (int c = 0; c < d; ++c)
-        M(k, c) = x[k * relaxation.system.unknowns + relaxation.at[v] + c];
-    }
+    if (relaxation.stays(vertex) || !relaxation.is_pose(vertex)) continue;
+    const Index first = factor.row(relaxation.unknown[v]);
+    const Eigen::Matrix<double, d, d> M = x.block<d, d>(first, 0).transpose();
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     R.topLeftCorner<d, d>() = nearest_rotation<d>(M);
     sum += (R - factor::rotation(relaxation.problem, relaxation.values, vertex)).squaredNorm();
@@ -155,7 +175,7 @@ double project(Relaxation<d>& relaxation, const std::vector<double>& x) {
 // u, by vertex.
 template <int d>
 std::vector<double> pulls(const Relaxation<d>& relaxation) {
-  std::vector<double> sum(relaxation.at.size(), 0), count(relaxation.at.size(), 0);
+  std::vector<double> sum(relaxation.unknown.size(), 0), count(relaxation.unknown.size(), 0);
   for (const auto& [i, j, motion] : relaxation.edges) {
     for (Index v : {i, j}) {
       if (v == world || !(motion.turn_information > 0)) continue;
@@ -170,29 +190,33 @@ std::vector<double> pulls(const Relaxation<d>& relaxation) {
 template <int d>
 void relax(const factor::Problem& problem, factor::Values& values) {
   Relaxation<d> relaxation = make_relaxation<d>(problem, values);
-  sparse::LeastSquares& system = relaxation.system;
-  if (system.unknowns == 0) return;
-  const std::vector<double> right = system.right;
-  sparse::NormalFactor normal;
-  factorize(system, normal);
-  project(relaxation, sparse::solve(normal, system.right));
+  LeastSquares& system = relaxation.system;
+  if (system.right.size() == 0) return;
+  Elimination elimination = plan_elimination(system);
+  const Triangle factor = triangle(elimination);
+  eliminate(system, {}, elimination);
+  const Rows right = right_side(system, factor);
+  Rows x = right;
+  solve(factor, d, x);
+  project(relaxation, factor, x);
 
   const std::vector<double> u = pulls(relaxation);
-  const auto for_numbers = [&](auto&& work) {  // of all unknown R
+  const auto for_pulled = [&](auto&& work) {  // of what has an unknown R
     for (std::size_t v = 0; v < u.size(); ++v) {
-      if (relaxation.at[v] < 0 || !(u[v] > 0)) continue;
-      for (int c = 0; c < d; ++c) work(static_cast<Index>(v), c, relaxation.at[v] + c);
+      const auto vertex = static_cast<Index>(v);
+      if (!relaxation.stays(vertex) && u[v] > 0) work(vertex, relaxation.unknown[v]);
     }
   };
-  for_numbers([&](Index v, int, Index column) { system.lower.add(column, column, u[v]); });
-  factorize(system, normal);
+  std::vector<double> damping(static_cast<std::size_t>(system.right.rows()), 0);
+  for_pulled([&](Index v, Index j) { std::fill_n(damping.begin() + system.at[j], d, u[v]); });
+  eliminate(system, damping, elimination);
   for (int round = 0; round < most_rounds; ++round) {
-    system.right = right;
-    for_numbers([&](Index v, int c, Index column) {
-      const auto R = relaxation.rotation(v);
-      for (int k = 0; k < d; ++k) system.right[k * system.unknowns + column] += u[v] * R(k, c);
+    x = right;
+    for_pulled([&](Index v, Index j) {
+      x.block<d, d>(factor.row(j), 0) += u[v] * relaxation.rotation(v).transpose();
     });
-    if (project(relaxation, sparse::solve(normal, system.right)) < settled * settled) break;
+    solve(factor, d, x);
+    if (project(relaxation, factor, x) < settled * settled) break;
   }
 }
 

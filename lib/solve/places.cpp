@@ -1,10 +1,11 @@
 #include "lib/solve/places.h"
 
+#include <Eigen/Core>
 #include <array>
 
 #include "lib/factor/gauge.h"
 #include "lib/factor/linearize.h"
-#include "lib/sparse/least_squares.h"
+#include "lib/solve/least_squares.h"
 
 namespace sg::solve {
 namespace {
@@ -15,40 +16,44 @@ bool measures_place(const factor::Problem& problem, Index e) {
   return graph::facts(space).translation.size > 0;
 }
 
-// Scalars of a step: their number among the unknown, -1 where they are none.
+// Of every variable, its place among those whose translation is unknown, -1 where it is not; and their dimensions.
 struct Unknowns {
   std::vector<Index> number;
-  Index count = 0;
+  std::vector<int> dim;
 };
+graph::Axes axes(const factor::Problem& problem, Index j) {
+  return graph::facts(problem.space[problem.variables.variable_vertex[j]]).translation;
+}
 Unknowns unknown_places(const factor::Problem& problem, const std::vector<bool>& measured,
                         const std::vector<bool>& stays) {
-  Unknowns result{std::vector<Index>(problem.step_at.back(), -1)};
+  Unknowns result;
   for (Index j = 0; j < problem.variables.pattern.variables(); ++j) {
     const Index v = problem.variables.variable_vertex[j];
-    const graph::Axes axes = graph::facts(problem.space[v]).translation;
-    for (int k = 0; k < axes.size && measured[v] && !stays[v]; ++k)
-      result.number[problem.step_at[j] + axes.first + k] = result.count++;
+    const bool unknown = measured[v] && !stays[v] && axes(problem, j).size > 0;
+    result.number.push_back(unknown ? static_cast<Index>(result.dim.size()) : -1);
+    if (unknown) result.dim.push_back(axes(problem, j).size);
   }
   return result;
 }
 
 void add_edge(const factor::Problem& problem, const factor::Values& values, Index e,
-              const Unknowns& unknowns, sparse::LeastSquares& system) {
+              const Unknowns& unknowns, LeastSquares& system) {
   std::array<double, factor::max_block> block;
   factor::linearize_row(problem, values, {}, e, block.data());
   const int height = factor::block_rows(problem, e);
-  std::vector<sparse::Term> row;
-  for (int i = 0; i < height; ++i) {
-    row.clear();
-    int at = i;
-    for (Index j : problem.variables.pattern.rows[e]) {
-      for (Index k = problem.step_at[j]; k < problem.step_at[j + 1]; ++k, at += height) {
-        if (unknowns.number[k] >= 0 && block[at] != 0)
-          row.push_back({unknowns.number[k], block[at]});
-      }
+  Eigen::Map<Eigen::MatrixXd> numbers(block.data(), height,
+                                      factor::block_columns(problem.variables.pattern, e));
+  std::vector<Index> variables;
+  Eigen::Index from = 0, to = 0;  // columns; those that count are moved together
+  for (const Index j : problem.variables.pattern.rows[e]) {
+    if (unknowns.number[j] >= 0) {
+      const auto [first, size] = axes(problem, j);
+      variables.push_back(unknowns.number[j]);
+      for (int k = 0; k < size; ++k) numbers.col(to++) = numbers.col(from + first + k);
     }
-    add_square(system, 1, row, std::span(&block[at], 1));
+    from += problem.variables.pattern.dim[j];
   }
+  if (!variables.empty()) add_row(system, variables, numbers.leftCols(to), numbers.col(from));
 }
 
 }  // namespace
@@ -62,16 +67,22 @@ void solve_places(const factor::Problem& problem, std::vector<bool>& placed,
     for (Index v : graph.edge(e)) measured[v] = measured[v] || !left_out[e];
   }
   const Unknowns unknowns = unknown_places(problem, measured, factor::anchors(problem, left_out));
-  sparse::LeastSquares system(unknowns.count, 1);
+  LeastSquares system = make_least_squares(unknowns.dim, 1);
   for (Index e = 0; e < graph.edges(); ++e) {
     if (!left_out[e]) add_edge(problem, values, e, unknowns, system);
   }
-  sparse::NormalFactor normal;
-  factorize(system, normal);
-  const std::vector<double> x = sparse::solve(normal, system.right);
-  std::vector<double> step(unknowns.number.size(), 0);
-  for (std::size_t k = 0; k < step.size(); ++k) {
-    if (unknowns.number[k] >= 0) step[k] = x[unknowns.number[k]];
+  Elimination elimination = plan_elimination(system);
+  eliminate(system, {}, elimination);
+  const Triangle factor = triangle(elimination);
+  Rows x = right_side(system, factor);
+  solve(factor, 1, x);
+  std::vector<double> step(static_cast<std::size_t>(problem.step_at.back()), 0);
+  for (std::size_t j = 0; j < unknowns.number.size(); ++j) {
+    const Index number = unknowns.number[j];
+    if (number < 0) continue;
+    const graph::Axes own = axes(problem, static_cast<Index>(j));
+    for (int k = 0; k < own.size; ++k)
+      step[problem.step_at[j] + own.first + k] = x(factor.row(number) + k, 0);
   }
   factor::retract(problem, step, values);
   for (Index v = 0; v < graph.vertices(); ++v) placed[v] = placed[v] || measured[v];
