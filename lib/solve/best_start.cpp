@@ -13,6 +13,8 @@ namespace {
 
 constexpr int long_run = 100;  // iterations after which the others are asked
 constexpr int trial_run = 20;  // that each of them has to get below the best
+constexpr int patience = 5;    // of these, that it has to get within reach of it
+constexpr double reach = 1000;
 
 constexpr double deviations = 4;
 constexpr double gain = 1e-6;  // less is the same valley
@@ -51,19 +53,24 @@ struct Search {
   std::optional<text::Error> error{};  // of the first start
 };
 
-// At most so many iterations more.
-void go_on(Search& search, Run& run, int iterations) {
+// At most so many iterations more, and few where chi-square stays above this.
+void go_on(Search& search, Run& run, int iterations,
+           double out_of_reach = std::numeric_limits<double>::infinity()) {
   BatchOptions options = search.options;
   options.iterations = iterations;
   const int before = run.result.iterations;
+  bool given_up = false;
   const auto report = [&](Iteration iteration) {
+    given_up = iteration.number >= patience && iteration.chi2 > out_of_reach;
     iteration.number += before;
     if (search.report) search.report(iteration);
   };
+  options.stop = [&] { return given_up || (search.options.stop && search.options.stop()); };
   const double initial = run.result.initial_chi2;
   run.result = optimize(search.problem, search.system, search.solver, options, run.values, report);
   run.result.iterations += before;
   run.result.initial_chi2 = initial;
+  if (given_up) run.result.stopped = false;
 }
 
 bool is_left(const Search& search, const Run& run) {
@@ -76,11 +83,12 @@ void go_to_the_end(Search& search, Run& run) {
 }
 
 // Nothing where it diverges.
-std::optional<Run> set_out(Search& search, Candidate& start, int iterations) {
+std::optional<Run> set_out(Search& search, Candidate& start, int iterations,
+                           double out_of_reach = std::numeric_limits<double>::infinity()) {
   if (search.tell_start) search.tell_start(start);
   Run run{std::move(start.values), {start.chi2, start.chi2, 0, false}};
   try {
-    go_on(search, run, std::min(iterations, search.options.iterations));
+    go_on(search, run, std::min(iterations, search.options.iterations), out_of_reach);
     return run;
   } catch (const text::Error& error) {
     if (!search.error) search.error = error;
@@ -98,8 +106,10 @@ bool explains(const factor::Problem& problem, const std::optional<Run>& run) {
 }
 
 void try_other(Search& search, Candidate& start) {
-  std::optional<Run> run = set_out(search, start, trial_run);
-  if (!run || (search.best && !(run->result.chi2 < (1 - gain) * search.best->result.chi2))) return;
+  const double best =
+      search.best ? search.best->result.chi2 : std::numeric_limits<double>::infinity();
+  std::optional<Run> run = set_out(search, start, trial_run, reach * best);
+  if (!run || !(run->result.chi2 < (1 - gain) * best)) return;
   go_to_the_end(search, *run);
   search.best = std::move(run);
 }

@@ -7,7 +7,8 @@
 //   2  where it ends in what noise alone explains, chi-square at most four standard deviations above its mean, the degrees
 //      of freedom, that is the end;
 //   3  otherwise, and where it diverges or takes longer than `long_run` iterations, the others have their turn, and the
-//      spanning tree's start: a few iterations each, and more for one that gets below what the best has reached.
+//      spanning tree's start: a few iterations each, fewer for one that stays far above what the best has reached, and
+//      more for one that gets below it.
 #pragma once
 
 #include <functional>

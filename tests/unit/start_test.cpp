@@ -203,6 +203,7 @@ struct Optimized {
   int iterations;
   factor::Values values;
   std::vector<std::string> tried;
+  std::vector<int> rows;  // of each that was tried
 };
 
 Optimized optimize(const factor::Problem& problem, std::vector<solve::Candidate> starts,
@@ -210,10 +211,14 @@ Optimized optimize(const factor::Problem& problem, std::vector<solve::Candidate>
   factor::LinearSystem system = factor::make_linear_system(problem);
   const auto solver = solve::find_backend("tree").make(
       system, order::elimination_order("colamd", problem.variables.pattern, {}), 1);
-  Optimized result{0, 0, {}, {}};
+  Optimized result{0, 0, {}, {}, {}};
   const solve::BatchResult end = solve::optimize_from_best(
       problem, system, solver, options, std::move(starts), true, result.values,
-      [&](const solve::Candidate& start) { result.tried.emplace_back(start.name); }, {});
+      [&](const solve::Candidate& start) {
+        result.tried.emplace_back(start.name);
+        result.rows.push_back(0);
+      },
+      [&](const solve::Iteration&) { ++result.rows.back(); });
   result.chi2 = end.chi2;
   result.iterations = end.iterations;
   return result;
@@ -446,4 +451,32 @@ TEST_CASE("the best start is the first, and the others are for ends that noise d
   solve::BatchOptions newton;
   newton.method = solve::BatchMethod::gauss_newton;
   CHECK(optimize(problem, {file[0], chordal[0]}, newton).chi2 == Approx(best.chi2).epsilon(1e-6));
+}
+
+TEST_CASE("a start that stays far above the best is given up", "[start]") {
+  // Little noise, and a false closure, so that noise does not explain the best end.
+  Random random(8);
+  world::Manhattan world;
+  world.poses = 1000;
+  std::string text;
+  world::Out out{[&](std::string_view piece) { text += piece; }};
+  write_graph(world::manhattan(world), world::Copy::noisy, out);
+  world::flush(out);
+  const Graph graph = graph_of(text + "EDGE_SE2 10 200 0 0 1 10 0 0 10 0 10\n");
+  const factor::Problem problem = factor::make_problem(graph);
+  solve::Candidate good = solve::make_candidate(problem, "chordal", {});
+  solve::Candidate bad = good;
+  bad.name = "file";
+  for (Index v = 1; v < graph.vertices(); ++v) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(draw(random, 0, 628) / 100.0, Eigen::Vector3d::UnitZ())
+            .toRotationMatrix();
+    factor::set_rotation(problem, v, turn, bad.values);
+  }
+  bad.chi2 = factor::chi2(problem, bad.values);
+  const Optimized end = optimize(problem, {good, bad});
+  CHECK(end.tried == std::vector<std::string>{"chordal", "file", "tree"});
+  CHECK(end.rows[1] == 5);
+  CHECK(end.rows[2] != 5);
+  CHECK(end.chi2 < good.chi2);
 }
