@@ -235,11 +235,11 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   batch.stop = cmd::interrupted;
   cmd::finish_first();
   cmd::stage("solve", batch.iterations);
-  const auto tell_start = [&](const solve::Candidate& start) {
+  const auto tell_start = [&](std::string_view start, double chi2, int iterations) {
     if (!command.verbose) return;
-    cmd::say("from " + std::string(start.name) + ":");
+    cmd::say((iterations > 0 ? "on from " : "from ") + std::string(start) + ":");
     cmd::print_error("iteration\tchi2\tlambda\tstep\tkept\tlinearize_s\teliminate_s\n");
-    print_iteration({0, start.chi2, 0, 0, true, 0, 0});
+    print_iteration({iterations, chi2, 0, 0, true, 0, 0});
   };
   const auto report = [&](const solve::Iteration& iteration) {
     cmd::progress(iteration.number);
@@ -248,7 +248,7 @@ void solve(const cmd::Command& command, const Options& options, const factor::Pr
   factor::Values values;
   solve::GncResult found;
   if (options.robust.gnc) {
-    tell_start(starts.front());
+    tell_start(starts.front().name, starts.front().chi2, 0);
     values = std::move(starts.front().values);
     found = solve::graduate(problem, plan, solving::gnc_options(options.robust, problem, batch),
                             values, report);

@@ -12,6 +12,8 @@ namespace sg::solve {
 namespace {
 
 constexpr int long_run = 100;  // iterations after which the others are asked
+constexpr int slow_steps = 3;  // or so many in a row that gain less than this part of chi-square
+constexpr double slow_gain = 1e-4;
 constexpr int trial_run = 20;  // that each of them has to get below the best
 constexpr int patience = 5;    // of these, that it has to get within reach of it
 constexpr double reach = 1000;
@@ -38,6 +40,7 @@ bool measures_motions(const factor::Problem& problem) {
 
 // A way to an end: how far it is.
 struct Run {
+  std::string_view start;
   factor::Values values;
   BatchResult result;
 };
@@ -53,24 +56,26 @@ struct Search {
   std::optional<text::Error> error{};  // of the first start
 };
 
-// At most so many iterations more, and few where chi-square stays above this.
-void go_on(Search& search, Run& run, int iterations,
-           double out_of_reach = std::numeric_limits<double>::infinity()) {
+// Whether a run is to be left for now, after this iteration of it.
+using Leave = std::function<bool(const Iteration&)>;
+
+// At most so many iterations more.
+void go_on(Search& search, Run& run, int iterations, const Leave& leave = {}) {
   BatchOptions options = search.options;
   options.iterations = iterations;
   const int before = run.result.iterations;
-  bool given_up = false;
+  bool left = false;
   const auto report = [&](Iteration iteration) {
-    given_up = iteration.number >= patience && iteration.chi2 > out_of_reach;
+    left = leave && leave(iteration);
     iteration.number += before;
     if (search.report) search.report(iteration);
   };
-  options.stop = [&] { return given_up || (search.options.stop && search.options.stop()); };
+  options.stop = [&] { return left || (search.options.stop && search.options.stop()); };
   const double initial = run.result.initial_chi2;
   run.result = optimize(search.problem, search.system, search.solver, options, run.values, report);
   run.result.iterations += before;
   run.result.initial_chi2 = initial;
-  if (given_up) run.result.stopped = false;
+  if (left) run.result.stopped = false;
 }
 
 bool is_left(const Search& search, const Run& run) {
@@ -78,17 +83,23 @@ bool is_left(const Search& search, const Run& run) {
          run.result.iterations < search.options.iterations;
 }
 
+void tell(const Search& search, const Run& run) {
+  if (search.tell_start) search.tell_start(run.start, run.result.chi2, run.result.iterations);
+}
+
 void go_to_the_end(Search& search, Run& run) {
-  if (is_left(search, run)) go_on(search, run, search.options.iterations - run.result.iterations);
+  if (!is_left(search, run)) return;
+  tell(search, run);
+  go_on(search, run, search.options.iterations - run.result.iterations);
 }
 
 // Nothing where it diverges.
 std::optional<Run> set_out(Search& search, Candidate& start, int iterations,
-                           double out_of_reach = std::numeric_limits<double>::infinity()) {
-  if (search.tell_start) search.tell_start(start);
-  Run run{std::move(start.values), {start.chi2, start.chi2, 0, false}};
+                           const Leave& leave = {}) {
+  Run run{start.name, std::move(start.values), {start.chi2, start.chi2, 0, false}};
+  tell(search, run);
   try {
-    go_on(search, run, std::min(iterations, search.options.iterations), out_of_reach);
+    go_on(search, run, std::min(iterations, search.options.iterations), leave);
     return run;
   } catch (const text::Error& error) {
     if (!search.error) search.error = error;
@@ -105,10 +116,23 @@ bool explains(const factor::Problem& problem, const std::optional<Run>& run) {
   return run && run->result.converged && noise_explains(problem, run->result.chi2);
 }
 
+// Once it creeps towards an end that noise does not explain.
+Leave if_slow(const factor::Problem& problem, double chi2) {
+  return [&problem, last = chi2, slow = 0](const Iteration& iteration) mutable {
+    const double gained = std::exchange(last, iteration.chi2) - iteration.chi2;
+    const bool is_slow = iteration.kept && gained >= 0 && gained < slow_gain * iteration.chi2;
+    slow = is_slow ? slow + 1 : 0;
+    return slow >= slow_steps && !noise_explains(problem, iteration.chi2);
+  };
+}
+
 void try_other(Search& search, Candidate& start) {
   const double best =
       search.best ? search.best->result.chi2 : std::numeric_limits<double>::infinity();
-  std::optional<Run> run = set_out(search, start, trial_run, reach * best);
+  const auto is_far = [&](const Iteration& iteration) {
+    return iteration.number >= patience && iteration.chi2 > reach * best;
+  };
+  std::optional<Run> run = set_out(search, start, trial_run, is_far);
   if (!run || !(run->result.chi2 < (1 - gain) * best)) return;
   go_to_the_end(search, *run);
   search.best = std::move(run);
@@ -144,7 +168,9 @@ BatchResult optimize_from_best(const factor::Problem& problem, factor::LinearSys
                                factor::Values& values, const TellStart& tell_start,
                                const std::function<void(const Iteration&)>& report) {
   Search search{problem, system, solver, options, tell_start, report};
-  search.best = set_out(search, candidates[0], others ? long_run : options.iterations);
+  search.best = others
+                    ? set_out(search, candidates[0], long_run, if_slow(problem, candidates[0].chi2))
+                    : set_out(search, candidates[0], options.iterations);
   if (others && !explains(problem, search.best)) {
     if (measures_motions(problem))
       candidates.push_back(make_candidate(problem, "tree", options.loss));

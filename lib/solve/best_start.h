@@ -6,7 +6,7 @@
 //   1  the starts' chi-squares are compared, and the optimizer runs from the least;
 //   2  where it ends in what noise alone explains, chi-square at most four standard deviations above its mean, the degrees
 //      of freedom, that is the end;
-//   3  otherwise, and where it diverges or takes longer than `long_run` iterations, the others have their turn, and the
+//   3  otherwise, and where it diverges, creeps or takes longer than `long_run` iterations, the others have their turn, and the
 //      spanning tree's start: a few iterations each, fewer for one that stays far above what the best has reached, and
 //      more for one that gets below it.
 #pragma once
@@ -32,8 +32,8 @@ Candidate make_candidate(const factor::Problem& problem, std::string_view start,
 // chordal relaxation where edges measure motions. The least chi2 first.
 std::vector<Candidate> default_candidates(const factor::Problem& problem, const factor::Loss& loss);
 
-// Where a run of the optimizer begins, and what its rows will be of.
-using TellStart = std::function<void(const Candidate& start)>;
+// Where a run of the optimizer begins, or goes on after so many iterations, and what its rows will be of.
+using TellStart = std::function<void(std::string_view start, double chi2, int iterations)>;
 
 // optimize (batch.h) from the best: `values` are where it ends, the result tells of the run that led there. others: whether
 // there is a 3. Throws what optimize throws from the first, if it throws from all.

@@ -214,8 +214,8 @@ Optimized optimize(const factor::Problem& problem, std::vector<solve::Candidate>
   Optimized result{0, 0, {}, {}, {}};
   const solve::BatchResult end = solve::optimize_from_best(
       problem, system, solver, options, std::move(starts), true, result.values,
-      [&](const solve::Candidate& start) {
-        result.tried.emplace_back(start.name);
+      [&](std::string_view start, double, int) {
+        result.tried.emplace_back(start);
         result.rows.push_back(0);
       },
       [&](const solve::Iteration&) { ++result.rows.back(); });
@@ -439,7 +439,7 @@ TEST_CASE("the best start is the first, and the others are for ends that noise d
 
   // From the file alone the tree is tried, too; the better end is kept.
   const Optimized other = optimize(problem, file);
-  CHECK(other.tried == std::vector<std::string>{"file", "tree"});
+  CHECK(other.tried == std::vector<std::string>{"file", "tree", "file"});
   CHECK(other.chi2 == Approx(factor::chi2(problem, other.values)));
 
   // The worse start first: the chordal one takes over.
@@ -475,7 +475,7 @@ TEST_CASE("a start that stays far above the best is given up", "[start]") {
   }
   bad.chi2 = factor::chi2(problem, bad.values);
   const Optimized end = optimize(problem, {good, bad});
-  CHECK(end.tried == std::vector<std::string>{"chordal", "file", "tree"});
+  CHECK(end.tried == std::vector<std::string>{"chordal", "file", "tree", "chordal"});
   CHECK(end.rows[1] == 5);
   CHECK(end.rows[2] != 5);
   CHECK(end.chi2 < good.chi2);
