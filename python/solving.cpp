@@ -44,9 +44,9 @@ Solution solve(const Graph& graph, const std::string& start, bool gauss_newton,
       starts.push_back(solve::make_candidate(problem, start, {}));
     }
     factor::Values values;
-    const solve::BatchResult result = solve::optimize_from_best(
-        problem, system, solver, options, std::move(starts), start.empty() && !iterations, values,
-        [](const solve::Candidate&) {}, [](const solve::Iteration&) {});
+    const solve::BatchResult result =
+        solve::optimize_from_best(problem, system, solver, options, std::move(starts),
+                                  start.empty() && !iterations, values, {}, {});
     if (!result.converged && !iterations)
       throw text::computation_error("not converged after " + std::to_string(result.iterations) +
                                     " iterations, chi-square " + text::format_number(result.chi2) +

@@ -43,7 +43,7 @@ std::optional<Graph> solved(const Study& study, Timer& timer, const cmd::Method&
   factor::Values values;
   const solve::BatchResult result = solve::optimize_from_best(
       timer.problem, system, solver, options,
-      solve::default_candidates(timer.problem, options.loss), true, values, [](const auto&) {}, {});
+      solve::default_candidates(timer.problem, options.loss), true, values, {}, {});
   if (result.stopped) return std::nullopt;
   if (!result.converged)
     throw text::computation_error("not converged after " + std::to_string(result.iterations) +

@@ -183,8 +183,8 @@ std::vector<Index> first_params(const Graph& graph) {
   std::vector<Index> places(graph.params.size());
   std::iota(places.begin(), places.end(), 0);
   std::ranges::stable_sort(places, {}, key);
-  const auto rest = std::ranges::unique(places, {}, key);
-  places.erase(rest.begin(), rest.end());
+  const auto same = [&](Index a, Index b) { return key(a) == key(b); };
+  places.erase(std::unique(places.begin(), places.end(), same), places.end());
   return places;
 }
 

@@ -23,7 +23,7 @@ inline std::vector<int> constraint_sets(Index n, const std::vector<Index>& last)
 inline void move_to_end(graph::Order& order, const std::vector<Index>& last) {
   std::vector<bool> is_last(order.size(), false);
   for (const Index j : last) is_last.at(j) = true;
-  std::ranges::stable_partition(order, [&](Index j) { return !is_last[j]; });
+  std::stable_partition(order.begin(), order.end(), [&](Index j) { return !is_last[j]; });
 }
 
 }  // namespace sg::order

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lib/order/constraint.h"
 #include "lib/order/dissect.h"
 #include "lib/order/region.h"
 #include "lib/order/stopwatch.h"
@@ -37,8 +38,7 @@ graph::Adjacency part_graph(const Region& region) {
     }
   }
   std::ranges::sort(edges);
-  const auto twice = std::ranges::unique(edges);
-  edges.erase(twice.begin(), twice.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   graph::Adjacency graph;
   std::size_t at = 0;
   for (Index v = 0; v < region.pattern.variables(); ++v) {
@@ -83,8 +83,8 @@ graph::Order slimmed(const Region& region, const graph::Adjacency& graph) {
   const auto joined = static_cast<std::size_t>(graph.size()) - 1;
   order.resize(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_partition(order.begin(), order.begin() + std::ssize(region.inside),
-                                [&](Index v) { return graph[v].size() < joined; });
+  std::stable_partition(order.begin(), order.begin() + std::ssize(region.inside),
+                        [&](Index v) { return graph[v].size() < joined; });
   return order;
 }
 
@@ -166,8 +166,7 @@ Polished polish(const graph::Pattern& pattern, const graph::Order& order,
     last = best.ec;
     if (!sweep(by_cliques)) break;
   }
-  // A postorder may have put some of `last` before others.
-  std::ranges::stable_partition(best.order, [&](Index j) { return !is_last[j]; });
+  move_to_end(best.order, options.last);  // a postorder may have put some of them before others
   return {std::move(best.order), best.ec};
 }
 

@@ -62,7 +62,8 @@ Index first_row(const Elimination& e, Index position) {
 void end_row(graph::Lists<>& rows) {
   std::ranges::sort(rows.open());
   const auto row = rows.open();
-  rows.items.resize(rows.items.size() - std::ranges::unique(row).size());
+  const auto rest = row.end() - std::unique(row.begin(), row.end());
+  rows.items.resize(rows.items.size() - static_cast<std::size_t>(rest));
   if (!rows.open().empty()) rows.close();
 }
 

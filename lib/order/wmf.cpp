@@ -239,7 +239,7 @@ constexpr std::int64_t most_work = 20;
 
 // The better of the greedy passes that the graph affords, and of amd, which wins on some small graphs.
 GreedyResult minimum_fill(const graph::Pattern& pattern, const graph::Adjacency& graph,
-                          GreedyOptions greedy, GreedyResult&& amd) {
+                          const GreedyOptions& greedy, GreedyResult&& amd) {
   GreedyResult best = greedy_fill(pattern, graph, greedy);
   const std::int64_t size = entries(graph);
   const bool given_up = best.order.empty();
@@ -264,7 +264,7 @@ GreedyResult by_dissection(const graph::Pattern& pattern, const graph::Adjacency
 }  // namespace
 
 bool is_wide(const graph::Adjacency& graph, elim::Wide ec) {
-  return ec > static_cast<elim::Wide>(narrow * entries(graph));
+  return ec > elim::Wide{narrow} * static_cast<elim::Wide>(entries(graph));
 }
 
 namespace {
@@ -299,7 +299,7 @@ graph::Order wmf(const graph::Pattern& pattern, const WmfOptions& options) {
   const bool sparse = size <= dense * std::int64_t{graph.size()};
   if (sparse && size > medium && is_wide(graph, by_amd)) {
     GreedyResult best = by_dissection(pattern, graph, options.seed);
-    if (best.ec <= static_cast<elim::Wide>(wide * size)) {
+    if (best.ec <= elim::Wide{wide} * static_cast<elim::Wide>(size)) {
       greedy.limit = best.ec;
       keep_better(best, minimum_fill(pattern, graph, greedy, std::move(amd)));
     }

@@ -196,8 +196,7 @@ std::vector<Index> compose_away(Isam2Replay& replay, Keyframes& keyframes, Index
   keyframes.ways.emplace(k, way);
   ++keyframes.composed;
   std::ranges::sort(landmarks);
-  const auto doubles = std::ranges::unique(landmarks);
-  landmarks.erase(doubles.begin(), doubles.end());
+  landmarks.erase(std::unique(landmarks.begin(), landmarks.end()), landmarks.end());
   return landmarks;
 }
 

@@ -229,8 +229,7 @@ graph::Order order_after(const Isam2Options& isam_options, const graph::Pattern&
     std::vector<Index> row(joined[k].begin(), joined[k].end());
     if (row.empty()) continue;
     std::ranges::sort(row);
-    const auto doubles = std::ranges::unique(row);
-    row.erase(doubles.begin(), doubles.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
     rest.rows.add(row);
   }
 
@@ -275,8 +274,7 @@ elim::Wide ec_after(const Isam2& isam, const CliqueTree& plan, std::span<const I
     if (c >= 0 && tree.cliques[c].marked != isam.updates) beyond.push_back(c);
   }
   std::ranges::sort(beyond);
-  const auto doubles = std::ranges::unique(beyond);
-  beyond.erase(doubles.begin(), doubles.end());
+  beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
   for (Index c : beyond) {
     const Isam2Clique& clique = tree.cliques[c];
     ec -= static_cast<elim::Wide>(clique.ec);

@@ -78,8 +78,7 @@ graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
     }
   }
   std::ranges::sort(options.last);
-  const auto doubles = std::ranges::unique(options.last);
-  options.last.erase(doubles.begin(), doubles.end());
+  options.last.erase(std::unique(options.last.begin(), options.last.end()), options.last.end());
   std::vector<Index> first;
   for (Index k = 0; k < work.pattern.variables(); ++k) {
     if (isam.leaving[work.variables[k]]) first.push_back(k);

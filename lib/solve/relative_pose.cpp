@@ -128,7 +128,7 @@ void rewrite(Rewritable& own, Index e, Index first, Index second, const Relative
 }
 
 std::unique_ptr<Rewritable> rewritable(const factor::Problem& problem) {
-  auto result = std::make_unique<Rewritable>(*problem.graph, problem);
+  auto result = std::make_unique<Rewritable>(Rewritable{*problem.graph, problem});
   result->problem.graph = &result->graph;
   std::vector<double> whitening;  // every edge's its own
   for (Index e = 0; e < result->graph.edges(); ++e) {

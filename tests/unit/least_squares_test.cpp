@@ -53,8 +53,8 @@ TEST_CASE("least squares by blocks are those of dense algebra, what nothing dete
   for (int trial = 0; trial < 100; ++trial) {
     const int variables = draw(random, 2, 12), free = draw(random, 0, 1),
               sides = draw(random, 1, 3);
-    std::vector<int> dim;
-    for (int j = 0; j < variables; ++j) dim.push_back(draw(random, 1, 4));
+    std::vector<int> dim(variables);
+    for (int& d : dim) d = draw(random, 1, 4);
     solve::LeastSquares sparse = solve::make_least_squares(dim, sides);
     const Dense dense = random_problem(random, free, sparse);
     std::vector<double> damping;

@@ -119,7 +119,7 @@ TEST_CASE("a polished order is never worse, and costs what it says", "[polish]")
     Order order = any_order(random, pattern, trial);
     std::vector<bool> is_last(n, false);
     for (const Index j : options.last) is_last[j] = true;
-    std::ranges::stable_partition(order, [&](Index j) { return !is_last[j]; });
+    std::stable_partition(order.begin(), order.end(), [&](Index j) { return !is_last[j]; });
     const sg::elim::Wide before = sg::elim::elimination_complexity(pattern, order);
     const sg::order::Polished polished = sg::order::polish(pattern, order, options);
     REQUIRE(sg::graph::is_permutation(polished.order, n));

@@ -207,7 +207,7 @@ struct Optimized {
 };
 
 Optimized optimize(const factor::Problem& problem, std::vector<solve::Candidate> starts,
-                   solve::BatchOptions options = {}) {
+                   const solve::BatchOptions& options = {}) {
   factor::LinearSystem system = factor::make_linear_system(problem);
   const auto solver = solve::find_backend("tree").make(
       system, order::elimination_order("colamd", problem.variables.pattern, {}), 1);
