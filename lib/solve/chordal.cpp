@@ -34,8 +34,8 @@ struct Relaxation {
   const factor::Problem& problem;
   factor::Values& values;
   std::vector<MotionEdge> edges;
-  std::vector<Index>
-      unknown;  // of every vertex: d numbers of R, of a pose, then one of t; -1: it stays
+  std::vector<Index> unknown;  // of every vertex, its variable: of a pose d numbers of R, then one
+                               // of t; -1: it stays
   LeastSquares system;
 
   bool is_pose(Index v) const { return v != world && problem.graph->role(v) == graph::Role::pose; }
