@@ -87,10 +87,16 @@ void tell(const Search& search, const Run& run) {
   if (search.tell_start) search.tell_start(run.start, run.result.chi2, run.result.iterations);
 }
 
-void go_to_the_end(Search& search, Run& run) {
-  if (!is_left(search, run)) return;
+// Whether it can: an iteration that begins anew wants a regular system, which one on the way need not have.
+bool go_to_the_end(Search& search, Run& run) {
+  if (!is_left(search, run)) return true;
   tell(search, run);
-  go_on(search, run, search.options.iterations - run.result.iterations);
+  try {
+    go_on(search, run, search.options.iterations - run.result.iterations);
+    return true;
+  } catch (const text::Error&) {
+    return false;
+  }
 }
 
 // Nothing where it diverges.
@@ -134,8 +140,7 @@ void try_other(Search& search, Candidate& start) {
   };
   std::optional<Run> run = set_out(search, start, trial_run, is_far);
   if (!run || !(run->result.chi2 < (1 - gain) * best)) return;
-  go_to_the_end(search, *run);
-  search.best = std::move(run);
+  if (go_to_the_end(search, *run)) search.best = std::move(run);
 }
 
 }  // namespace
@@ -179,7 +184,11 @@ BatchResult optimize_from_best(const factor::Problem& problem, factor::LinearSys
       try_other(search, candidates[k]);
   }
   if (!search.best) throw text::Error(*search.error);
-  go_to_the_end(search, *search.best);
+  if (!go_to_the_end(search, *search.best)) {  // then without leaving it on the way
+    Candidate again = make_candidate(problem, search.best->start, options.loss);
+    search.best = set_out(search, again, options.iterations);
+    if (!search.best) throw text::Error(*search.error);
+  }
   values = std::move(search.best->values);
   return search.best->result;
 }
