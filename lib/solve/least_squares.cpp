@@ -2,10 +2,9 @@
 
 #include <oneapi/tbb/global_control.h>
 
-#include <numeric>
-
 #include "lib/factor/problem.h"
 #include "lib/order/order.h"
+#include "lib/solve/normal_equations.h"
 #include "lib/text/error.h"
 
 namespace sg::solve {
@@ -15,15 +14,8 @@ constexpr double share = 1e-9;
 
 // With more on the diagonal for what is left undetermined.
 std::vector<double> more_damping(const LeastSquares& problem, std::vector<double> damping) {
-  std::vector<double> diagonal(static_cast<std::size_t>(problem.at.back()), 0);
-  for (Index r = 0; r < problem.pattern.rows.size(); ++r) {
-    const int height = problem.system.height[r];
-    const double* column = problem.system.block(r);
-    for (const Index j : problem.pattern.rows[r]) {
-      for (Index k = problem.at[j]; k < problem.at[j + 1]; ++k, column += height)
-        diagonal[k] += std::inner_product(column, column + height, column, 0.0);
-    }
-  }
+  std::vector<double> diagonal, unused;
+  diagonal_and_gradient(problem.system, diagonal, unused);
   damping.resize(diagonal.size(), 0);
   for (std::size_t k = 0; k < diagonal.size(); ++k)
     damping[k] += diagonal[k] > 0 ? share * diagonal[k] : 1;

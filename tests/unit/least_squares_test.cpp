@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
-#include <numeric>
 #include <vector>
 
 #include "tests/unit/common.h"

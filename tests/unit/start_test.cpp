@@ -198,6 +198,14 @@ std::vector<Eigen::MatrixXd> dense_rotations(const factor::Problem& problem, int
   return R;
 }
 
+std::string noisy_text(const world::Manhattan& world) {
+  std::string text;
+  world::Out out{[&](std::string_view piece) { text += piece; }};
+  write_graph(world::manhattan(world), world::Copy::noisy, out);
+  world::flush(out);
+  return text;
+}
+
 struct Optimized {
   double chi2;
   int iterations;
@@ -421,11 +429,7 @@ TEST_CASE("the best start is the first, and the others are for ends that noise d
   world::Manhattan world;
   world.poses = 400;
   world.noise.rotation = 0.2;
-  std::string text;
-  world::Out out{[&](std::string_view piece) { text += piece; }};
-  write_graph(world::manhattan(world), world::Copy::noisy, out);
-  world::flush(out);
-  const Graph graph = graph_of(text);
+  const Graph graph = graph_of(noisy_text(world));
   const factor::Problem problem = factor::make_problem(graph);
   auto starts = solve::default_candidates(problem, {});
   REQUIRE(starts.size() == 2);
@@ -458,11 +462,7 @@ TEST_CASE("a start that stays far above the best is given up", "[start]") {
   Random random(8);
   world::Manhattan world;
   world.poses = 1000;
-  std::string text;
-  world::Out out{[&](std::string_view piece) { text += piece; }};
-  write_graph(world::manhattan(world), world::Copy::noisy, out);
-  world::flush(out);
-  const Graph graph = graph_of(text + "EDGE_SE2 10 200 0 0 1 10 0 0 10 0 10\n");
+  const Graph graph = graph_of(noisy_text(world) + "EDGE_SE2 10 200 0 0 1 10 0 0 10 0 10\n");
   const factor::Problem problem = factor::make_problem(graph);
   solve::Candidate good = solve::make_candidate(problem, "chordal", {});
   solve::Candidate bad = good;
