@@ -1,6 +1,7 @@
 # orderings.tsv, times.tsv, polished.tsv, replay.tsv (and GTSAM's times, if there are any) as Markdown: where wmf loses; EC as
-# ratios to colamd's, times to amd's and colamd's; where fewer operations take longer; polishing; means.
-BEGIN { least_s = 0.005; FS = "\t"; n = split("colamd amd metis scotch wmf best", shown, " ") }
+# ratios to colamd's, times to amd's and colamd's; where fewer operations take longer; polishing; means. others: names of
+# orderings to show beside ours.
+BEGIN { least_s = 0.005; FS = "\t"; n = split("colamd amd metis scotch wmf best " others, shown, " ") }
 /^#/ { next }
 FILENAME != last_file { ++file; last_file = FILENAME; for (i = 1; i <= NF; ++i) column[$i] = i; next }
 file == 2 { tree[$1, $2] = $6; cholmod[$1, $2] = $7; next }

@@ -13,17 +13,34 @@
 namespace sg::order {
 namespace {
 
-constexpr Index small_piece = 300;    // not parted
 constexpr double largest_part = 0.9;  // of a piece; a separator that leaves more parts nothing
-// Up to so many times what dissection of a piece costs, minimum fill may win the piece around it. It does not where that is
-// more than so much a list entry.
-constexpr double near = 1.05, narrow = 30'000;
+constexpr double narrow = 30'000;     // EC a list entry, up to which minimum fill may win
+
+constexpr Index small = 300;   // not parted
+constexpr Index medium = 600;  // nor these, where minimum fill is as good:
+
+// where variables have many neighbours,
+bool is_rich(const Piece& piece) {
+  return piece.entries() > 8 * static_cast<std::size_t>(piece.size());
+}
+
+// and where elimination costs so little for every list entry.
+bool is_cheap(const Piece& piece, elim::Wide ec) {
+  return ec <= 1300 * static_cast<elim::Wide>(piece.entries());
+}
+
+// Up to so many times what dissection of a piece costs, minimum fill may win the piece around it. The larger, the less: its
+// passes take longer, and what was lost in one part is seldom won back.
+double near(const Piece& piece) {
+  return 1 + std::min(0.05, 15.0 / piece.size());
+}
 
 struct Graph {
   const graph::Adjacency& adjacency;
   const std::vector<int>& dim;
   std::uint64_t seed;
   std::vector<Index> number;  // scratch: n zeros
+  bool cheap = false;  // what minimum fill ordered last; the next piece is most often its neighbour
 };
 
 // An order of a piece, and whether minimum fill comes near it, or did in a part.
@@ -136,17 +153,27 @@ void contest(const Piece& piece, Ordered& by_parts) {
   const auto ec = static_cast<double>(by_parts.found.ec);
   by_parts.contested = by_parts.contested && ec <= narrow * static_cast<double>(piece.entries());
   if (!by_parts.contested) return;
-  Dissected other = by_minimum_fill(piece, static_cast<elim::Wide>(near * ec));
+  Dissected other = by_minimum_fill(piece, static_cast<elim::Wide>(near(piece) * ec));
   by_parts.contested = !other.order.empty();
   if (by_parts.contested && other.ec < by_parts.found.ec) by_parts.found = std::move(other);
 }
 
+Ordered not_parted(Graph& graph, const Piece& piece) {
+  Ordered result{by_minimum_fill(piece), true};
+  graph.cheap = is_cheap(piece, result.found.ec);
+  return result;
+}
+
 Ordered dissected(Graph& graph, const Piece& piece) {
-  if (piece.size() <= small_piece) return {by_minimum_fill(piece), true};
+  if (piece.size() <= (is_rich(piece) ? medium : small)) return not_parted(graph, piece);
+  if (graph.cheap && piece.size() <= medium) {
+    Ordered whole = not_parted(graph, piece);
+    if (graph.cheap) return whole;
+  }
   const Separation side = separation(piece, graph.seed + 1);
-  if (side.empty()) return {by_minimum_fill(piece), true};
+  if (side.empty()) return not_parted(graph, piece);
   const graph::Lists<> below = parts(piece, side);
-  if (parts_nothing(piece, below)) return {by_minimum_fill(piece), true};
+  if (parts_nothing(piece, below)) return not_parted(graph, piece);
   graph::Lists<> around;
   Ordered result = dissected(graph, below, around);
   Top separator = top(piece, side);

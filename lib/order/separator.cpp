@@ -53,6 +53,7 @@ int worthwhile(const Piece& piece, double price) {
 
 Separation separation(const Piece& piece, std::uint64_t seed) {
   constexpr int passes = 2, patience = 40;
+  constexpr Index large = 10'000;
   Candidate best;
   std::optional<Prices> by;  // of the first, so that all are measured alike
   const auto try_one = [&](Separation&& side) {
@@ -65,7 +66,11 @@ Separation separation(const Piece& piece, std::uint64_t seed) {
   int enough = 4;  // as long as none has two sides
   for (int k = 0; k < enough; ++k) {
     try_one(metis_separation(piece, seed + static_cast<std::uint64_t>(k)));
-    if (k == 0) try_one(level_separation(piece, *by));
+    if (k == 0) {
+      const double by_metis = best.price;
+      try_one(level_separation(piece, *by));
+      if (best.price < by_metis && piece.size() > large) break;  // a grid: METIS seldom does better
+    }
     if (std::isfinite(best.price)) enough = worthwhile(piece, best.price);
   }
   if (!best.side.empty()) improve(piece, *by, best);

@@ -259,8 +259,8 @@ TEST_CASE("greedy passes: a permutation by stages, with its own exact EC", "[wmf
 }
 
 TEST_CASE("ties go to the lowest index, or by seed", "[wmf]") {
-  std::vector<Row> rows;
-  for (Index j = 0; j < 100; ++j) rows.push_back({j, (j + 1) % 100});
+  std::vector<Row> rows(100);
+  for (Index j = 0; j < 100; ++j) rows[j] = {j, (j + 1) % 100};
   const Pattern cycle = make_pattern(std::vector<int>(100, 3), rows);
   CHECK(sg::order::wmf(cycle).front() == 0);
   CHECK(sg::order::wmf(cycle, {{}, 1}) == sg::order::wmf(cycle, {{}, 1}));
