@@ -68,6 +68,7 @@ std::vector<Measurable> all_of(std::span<const Draft* const> drafts) {
       all.emplace(std::pair(m.of.first, m.of.second), m.of);
   }
   std::vector<Measurable> result;
+  result.reserve(all.size());
   for (const auto& [ends, of] : all) result.push_back(of);
   return result;
 }
@@ -106,7 +107,8 @@ void look(const Market& market, double price, const auto& see) {
   const Draft pass = pass_at(market, rate);
   bool any = false;
   const auto see_pass = [&] {
-    see(Priced{complexity(pattern_of(market, pass).pattern), pass.divergence, [&] { return pass; }},
+    see(Priced{complexity(pattern_of(market, pass).pattern), pass.divergence,
+               [&] { return Draft(pass); }},
         rate);
   };
   const Draft* const drafts[] = {&market.trees, &pass};

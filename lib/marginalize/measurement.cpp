@@ -65,6 +65,7 @@ Eigen::MatrixXd linearized(const At& at, const Measurable& of, const std::vector
   factor::whitening(triangle, model.dim, U.data());
   const auto vertices = ends(of);
   std::vector<const double*> x;
+  x.reserve(vertices.size());
   for (const Index v : vertices) x.push_back(at.x(v));
   Eigen::MatrixXd block(model.dim, total_dim(at, vertices) + 1);
   model.linearize(x.data(), constants.data(), {U.data(), false}, block.data());

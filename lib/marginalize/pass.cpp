@@ -92,6 +92,7 @@ void make_sparse(Pass& pass, const Piece& piece, std::span<const Index> cluster)
     std::ranges::sort(chosen);
   }
   std::vector<MatrixXd> slopes;
+  slopes.reserve(chosen.size());
   for (const Index k : chosen) slopes.push_back(spread(around, pairs[k]));
   Recovery recovery = recover(slopes, around.covariance, pass.how);
   pass.divergence += recovery.divergence;
