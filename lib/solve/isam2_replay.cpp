@@ -71,17 +71,26 @@ text::Error singular(Index step, const NullSpace& open, std::span<const Id> id) 
                                  singular_error(open, id).what());
 }
 
+// Of a window (isam2_window.h): what has left would be needed.
+text::Error determined_no_more(const factor::Problem& problem, Index step,
+                               std::span<const Index> variables) {
+  std::vector<Id> ids;
+  for (const Index j : variables)
+    ids.push_back(problem.graph->id[problem.variables.variable_vertex[j]]);
+  std::ranges::sort(ids);
+  return text::computation_error(
+      "step " + std::to_string(step) +
+      ": the system is singular: what the window still holds leaves " + id_ranges(ids) +
+      " undetermined; a longer lag or a larger budget keeps more of what determines " +
+      (ids.size() == 1 ? "it" : "them"));
+}
+
 // Elimination names the last variables of what is free to move; the null space knows them all, where all rows are
 // there still.
 [[noreturn]] void throw_singular(const Isam2Replay& replay, Index step, const Isam2Report& report) {
   const factor::Problem& problem = *replay.problem;
   if (std::ranges::any_of(replay.isam.pinned, std::identity())) {
-    std::vector<Id> id;
-    for (Index v : problem.variables.variable_vertex) id.push_back(problem.graph->id[v]);
-    NullSpace open;
-    open.dimension = 1;
-    open.undetermined = report.undetermined;
-    throw singular(step, open, id);
+    throw determined_no_more(problem, step, report.undetermined);
   }
   Snapshot snapshot;
   take_snapshot(replay.isam, true, snapshot);

@@ -27,6 +27,15 @@ corridor() {
   done
 }
 
+@test "a pose that only what has left would determine ends the replay, and the message says what to do" {
+  for k in 0 1 2 3; do echo "EDGE_SE2 $k $((k + 1)) 1 0 0 1 0 0 1 0 1"; done > in.g2o
+  echo "EDGE_SE2 0 5 1 0 0 1 0 0 1 0 1" >> in.g2o
+  sg-isam2 -q in.g2o > rows
+  fails 3 "sg-isam2: step 5: the system is singular: what the window still holds leaves vertex 5 undetermined; a longer lag or a larger budget keeps more of what determines it" \
+    sg-isam2 -q --lag 3 in.g2o
+  sg-isam2 -q --lag 5 in.g2o > rows
+}
+
 @test "--lag N: N poses are there, and their landmarks; edges and cliques stay few" {
   corridor 200 > corridor.g2o
   sg-isam2 -q --lag 10 -f window,variables,factors,cliques,dropped --no-header corridor.g2o > rows.tsv
