@@ -91,10 +91,7 @@ void make_sparse(Pass& pass, const Piece& piece, std::span<const Index> cluster)
     chosen.insert(chosen.end(), further.begin(), further.end());
     std::ranges::sort(chosen);
   }
-  std::vector<MatrixXd> slopes;
-  slopes.reserve(chosen.size());
-  for (const Index k : chosen) slopes.push_back(spread(around, pairs[k]));
-  Recovery recovery = recover(slopes, around.covariance, pass.how);
+  Recovery recovery = recover(slopes(around, pairs, chosen), around.covariance, pass.how);
   pass.divergence += recovery.divergence;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const Measurable& of = pairs[chosen[k]].of;

@@ -108,10 +108,8 @@ std::vector<Index> penalized(const Blanket& blanket, const std::vector<Pair>& pa
   std::vector<Index> offered =
       most_informative(blanket, pairs, tree, 2 * static_cast<Index>(tree.pairs.size()));
   offered.insert(offered.begin(), tree.pairs.begin(), tree.pairs.end());
-  std::vector<MatrixXd> slopes;
-  for (const Index k : offered) slopes.push_back(spread(blanket, pairs[k]));
   const Recovery recovered = recover(
-      slopes, blanket.covariance,
+      slopes(blanket, pairs, offered), blanket.covariance,
       {.conservative = true, .penalty = penalty, .multiples = true, .barrier = 1e-3 * least_share});
   std::vector<double> share(pairs.size(), 0);
   for (std::size_t i = 0; i < offered.size(); ++i) {
@@ -209,6 +207,14 @@ MatrixXd spread(const Blanket& blanket, const Pair& pair) {
   MatrixXd all = MatrixXd::Zero(pair.slope.rows(), blanket.information.rows());
   all(Eigen::all, pair.scalars) = pair.slope;
   return all;
+}
+
+std::vector<MatrixXd> slopes(const Blanket& blanket, const std::vector<Pair>& pairs,
+                             const std::vector<Index>& chosen) {
+  std::vector<MatrixXd> result;
+  result.reserve(chosen.size());
+  for (const Index k : chosen) result.push_back(spread(blanket, pairs[k]));
+  return result;
 }
 
 double surprise(const Pair& pair, const MatrixXd& covariance) {

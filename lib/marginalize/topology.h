@@ -40,8 +40,10 @@ struct Pair {
   Eigen::MatrixXd slope;       // in them
   Eigen::MatrixXd covariance;  // slope S slope'
 };
-// Its slope in all steps of the blanket.
+// Its slope in all steps of the blanket; those of the chosen ones.
 Eigen::MatrixXd spread(const Blanket& blanket, const Pair& pair);
+std::vector<Eigen::MatrixXd> slopes(const Blanket& blanket, const std::vector<Pair>& pairs,
+                                    const std::vector<Index>& chosen);
 // Every pair with a measurement of full rank, and where the piece is absolute a prior of every vertex. Landmarks pair
 // with each other only where there is no pose and the piece is absolute: what poses have told of them turns with the whole.
 std::vector<Pair> candidate_pairs(const At& at, const Piece& piece, const Blanket& blanket);

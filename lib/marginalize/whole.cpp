@@ -228,6 +228,7 @@ std::optional<double> fit(const Whole& whole, const graph::Order& order, double 
   const std::vector<const Offer*> all = taken(offers);
   Rest rest(whole, all, [&](const graph::Pattern&) { return order; });
   std::vector<MatrixXd> W;
+  W.reserve(all.size());
   for (const Offer* offer : all) W.push_back(offer->information);
   // The divergence with these informations, infinite where it is not determined.
   const auto divergence = [&](const std::vector<MatrixXd>& information) {
