@@ -232,6 +232,7 @@ void run(const cmd::Command& command, const Options& options) {
                 : options.gain == "aligned" ? prune::GainKind::aligned
                                             : prune::GainKind::log_det;
   greedy.seed = order::draw_of(options.method.seed);
+  greedy.told = options.trace;
   const cmd::Method method = cmd::methods(options.method, graph).front();
   greedy.order = [&](const graph::GraphPattern& variables) {
     return cmd::order_by(method, options.method, graph, variables);

@@ -65,7 +65,7 @@ std::optional<solve::Times> read_calibration() {
 }
 
 std::string make_calibration_path() {
-  const std::string path = calibration_path();
+  std::string path = calibration_path();
   if (path.empty())
     throw text::computation_error(
         "neither XDG_CACHE_HOME nor HOME is set to a path: there is no place for a calibration");

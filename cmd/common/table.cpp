@@ -223,6 +223,7 @@ void Rows::print(const std::vector<Cell>& cells, bool header) {
 void Rows::hold(const std::vector<Cell>& cells) {
   constexpr std::size_t enough = 100;
   std::vector<Printed> line;
+  line.reserve(cells.size());
   for (const Cell& cell : cells) line.push_back({printed(cell, true), is_number(cell)});
   held_.push_back(std::move(line));
   const bool late =

@@ -130,11 +130,11 @@ Condition parse_condition(const std::string& text) {
 
 std::vector<bool> edges_where(const Graph& graph, const Condition& condition) {
   Subject subject{graph};
-  std::vector<bool> result;
+  std::vector<bool> result(graph.edges());
   for (Index e = 0; e < graph.edges(); ++e) {
-    result.push_back(std::ranges::any_of(condition, [&](const auto& all) {
+    result[e] = std::ranges::any_of(condition, [&](const auto& all) {
       return std::ranges::all_of(all, [&](const auto& c) { return holds(c, subject, e); });
-    }));
+    });
   }
   return result;
 }

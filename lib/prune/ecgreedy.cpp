@@ -12,10 +12,15 @@ namespace {
 
 constexpr double growth = 1.25;          // of EC until the order is renewed
 constexpr double worth_renewing = 1.01;  // at the end of a budget: what a new order has to win
-constexpr Index most_added = 192;        // rows until the factor is renewed
 constexpr std::int64_t most_stored = 1 << 23;  // numbers in roots (information_gain.h)
 constexpr Index sparsest = 256;                // rate of a start, before none
 constexpr double most_sigma = 1e5;             // of a start, in multiples of the whole graph's
+
+// Rows until the factor is renewed, which takes the longer the larger the graph is; with what was added grows the time of a
+// try.
+Index most_added(const Part& part) {
+  return std::clamp<Index>(part.evidence.poses / 50, 192, 640);
+}
 
 struct Waiting {
   double worth;  // as it was last
@@ -144,8 +149,14 @@ void record(Greedy& greedy, Move::Kind kind, std::vector<Index> edges, elim::Wid
       {kind, std::move(edges), 0, increase, greedy.part.filled.ec, 0, greedy.kept});
 }
 
+bool is_told(const EcGreedyOptions& options) {
+  return options.told || options.sigma;
+}
+
 // What the moves since the factor have gained.
 void settle_moves(Greedy& greedy) {
+  if (!is_told(greedy.part.options)) greedy.settled = greedy.moves.size();
+  if (greedy.settled == greedy.moves.size()) return;
   for (const Settled& settled : settle(greedy.part.knowledge)) {
     Move& move = greedy.moves[greedy.settled++];
     move.gain = chosen(greedy.part, settled.gain);
@@ -174,7 +185,7 @@ void renew_order(Greedy& greedy) {
   settle_moves(greedy);
   place_order(greedy.part);
   make_factor(greedy);
-  take_variances(greedy.part.knowledge);
+  if (is_told(greedy.part.options)) take_variances(greedy.part.knowledge);
   offer_all(greedy);
 }
 
@@ -266,7 +277,7 @@ void grow(Greedy& greedy) {
         continue;
     }
     if (over) return;
-    if (part.knowledge.added_rows >= most_added) {
+    if (part.knowledge.added_rows >= most_added(part)) {
       renew_factor(greedy);
       continue;
     }

@@ -265,9 +265,7 @@ Gain gain_of(const MatrixXd& information, const Draws& y) {
   Gain gain{0, 0};
   for (Eigen::Index k = 0; k < information.rows(); ++k)
     gain.log_det += 2 * std::log(llt.matrixLLT()(k, k));
-  Draws white = y;
-  llt.matrixL().solveInPlace(white);
-  gain.trace = white.squaredNorm() / draws;
+  gain.trace = llt.matrixL().solve(y).squaredNorm() / draws;
   return gain;
 }
 

@@ -18,6 +18,7 @@ std::vector<bool> kept_by(const std::vector<Index>& candidates, std::span<const 
     }
   }
   std::vector<bool> kept;
+  kept.reserve(candidates.size());
   for (const Index e : candidates) kept.push_back(e < static_cast<Index>(in.size()) && in[e]);
   return kept;
 }

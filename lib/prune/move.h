@@ -33,6 +33,8 @@ struct EcGreedyOptions {
   std::uint64_t seed = 1;  // of the gains' random vectors
   // An elimination order of a part of the graph.
   std::function<graph::Order(const graph::GraphPattern&)> order;
+  bool told =
+      true;  // gains and sigmas of the moves are wanted: settling them takes longer than the choice; else they are 0
   // Told how many candidates are kept, and asked whether to go on; may be empty.
   std::function<bool(Index kept)> go_on;
 

@@ -1,6 +1,9 @@
 #include "lib/prune/part.h"
 
 #include <algorithm>
+#include <iterator>
+
+#include "lib/order/order.h"
 
 namespace sg::prune {
 
@@ -24,8 +27,13 @@ void place_order(Part& part) {
     if (!part.in.vertex[evidence.variable_vertex[j]]) part.order.push_back(j);
   }
   const auto absent = static_cast<Index>(part.order.size());
-  for (const Index k : part.options.order(variables))
-    part.order.push_back(evidence.vertex_variable[variables.variable_vertex[k]]);
+  part.low = part.order;
+  const auto variable = [&](Index k) {
+    return evidence.vertex_variable[variables.variable_vertex[k]];
+  };
+  std::ranges::transform(part.options.order(variables), std::back_inserter(part.order), variable);
+  std::ranges::transform(order::elimination_order("metis", variables.pattern),
+                         std::back_inserter(part.low), variable);
   part.position.resize(n);
   for (Index k = 0; k < n; ++k) part.position[part.order[k]] = k;
   graph::Pattern rows{evidence.pattern.dim, {}};
@@ -37,7 +45,7 @@ void place_order(Part& part) {
 }
 
 std::vector<Index> refactor(Part& part) {
-  return refactor(part.knowledge, part.in, part.order);
+  return refactor(part.knowledge, part.in, part.low);
 }
 
 std::vector<Index> factor_of(const Part& part, std::span<const Index> rows) {

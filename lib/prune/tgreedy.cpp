@@ -191,10 +191,11 @@ std::vector<Accepted> tgreedy_online(const Graph& graph, const graph::PoseIndex&
 
 std::vector<bool> kept_by(const std::vector<Index>& candidates,
                           std::span<const Accepted> accepted) {
-  std::vector<Index> edges;
-  for (const Accepted& step : accepted) edges.push_back(step.edge);
+  std::vector<Index> edges(accepted.size());
+  std::ranges::transform(accepted, edges.begin(), &Accepted::edge);
   std::ranges::sort(edges);
   std::vector<bool> kept;
+  kept.reserve(candidates.size());
   for (const Index e : candidates) kept.push_back(std::ranges::binary_search(edges, e));
   return kept;
 }

@@ -183,7 +183,7 @@ void leave_clique(Isam2& isam, Index c, bool keep, Isam2Report& report) {
 }  // namespace
 
 graph::Order order_after(const Isam2Options& isam_options, const graph::Pattern& pattern,
-                         std::span<const Index> first, std::vector<Index> last) {
+                         std::span<const Index> first, std::span<const Index> last) {
   const Index n = pattern.variables();
   std::vector<Index> number(n, 0);
   for (Index j : first) number[j] = -1;

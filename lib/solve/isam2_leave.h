@@ -33,7 +33,7 @@ namespace sg::solve {
 // An order that begins with `first` and ends with `last`: what is between is ordered by the options' ordering for what remains
 // when `first` has been eliminated.
 graph::Order order_after(const Isam2Options& options, const graph::Pattern& pattern,
-                         std::span<const Index> first, std::vector<Index> last);
+                         std::span<const Index> first, std::span<const Index> last);
 
 // From now on cliques are the Bayes tree's, none is relaxed (clique_tree.h): what leaves one is told by its own EC, and
 // EC_BT stays a sum over cliques. Marks those that are relaxed. Where nothing has ever left, they are as they always were.

@@ -151,7 +151,7 @@ void check_solved(const Isam2Replay& replay, Index k, const Isam2Report& report)
 
 Isam2Report replay_step(Isam2Replay& replay, Index k) {
   const Entering entering = enter(replay, replay.vertices[k], replay.edges[k]);
-  const Isam2Report report = update(replay.isam, entering.variables, entering.rows);
+  Isam2Report report = update(replay.isam, entering.variables, entering.rows);
   check_solved(replay, k, report);
   return report;
 }

@@ -84,7 +84,7 @@ graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
     if (isam.leaving[work.variables[k]]) first.push_back(k);
   }
   return first.empty() ? order::elimination_order(isam.options.ordering, work.pattern, options)
-                       : order_after(isam.options, work.pattern, first, std::move(options.last));
+                       : order_after(isam.options, work.pattern, first, options.last);
 }
 
 // Adds clique k of the top's tree to the smoother's: work.variables and work.rows say what its

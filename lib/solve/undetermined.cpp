@@ -76,6 +76,7 @@ std::vector<double> residuals(const Search& search, const factor::LinearSystem& 
 
 std::vector<Id> ids_of(const std::vector<Index>& variables, std::span<const Id> id) {
   std::vector<Id> ids;
+  ids.reserve(variables.size());
   for (Index j : variables) ids.push_back(id[j]);
   std::ranges::sort(ids);
   return ids;

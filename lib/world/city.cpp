@@ -27,6 +27,7 @@ Grid sorted_by_cell(const std::vector<Eigen::Vector3d>& points, double side, dou
   grid.size = std::max(range, side / 4096);
   grid.across = static_cast<Index>(side / grid.size) + 1;
   std::vector<Index> cell;
+  cell.reserve(points.size());
   for (const auto& point : points) cell.push_back(grid.cell(point));
   grid.landmarks = graph::grouped(cell, grid.across * grid.across);
   return grid;

@@ -397,6 +397,13 @@ TEST_CASE("the same call makes the same moves, and budgets are kept", "[ecgreedy
     CHECK(moves[k].gain == again[k].gain);
     CHECK(moves[k].sigma == again[k].sigma);
   }
+  world.options.told = false;
+  const std::vector<Move> untold = world.moves();
+  REQUIRE(untold.size() == moves.size());
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    CHECK(untold[k].edges == moves[k].edges);
+    CHECK(untold[k].increase == moves[k].increase);
+  }
   const elim::Wide middle = (moves.front().ec + moves.back().ec) / 2;
   const std::size_t count = prune::moves_within(world.choice, moves, middle, world.options);
   CHECK(count > 1);
