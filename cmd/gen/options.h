@@ -37,6 +37,7 @@ template <class Value>
 void add_word(CLI::App& app, const std::string& name, Value& value, const std::string& what,
               const std::string& text, const std::vector<std::pair<std::string, Value>>& words) {
   std::vector<std::string> known;
+  known.reserve(words.size());
   for (const auto& word : words) known.push_back(word.first);
   const auto number_of = [known, words](std::string& word) {
     if (std::string cause = cmd::one_of(known)(word); !cause.empty()) return cause;

@@ -16,7 +16,7 @@ constexpr Color grey{0.35, 0.35, 0.35};
 // "x", "-z", or nothing for a direction between.
 std::string axis_name(const Eigen::RowVector3d& direction) {
   for (int k = 0; k < 3; ++k) {
-    const std::string name(1, static_cast<char>('x' + k));
+    std::string name(1, static_cast<char>('x' + k));
     if (direction[k] > 1 - 1e-9) return name;
     if (direction[k] < -1 + 1e-9) return "-" + name;
   }

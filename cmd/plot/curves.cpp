@@ -126,7 +126,8 @@ Curve thinned(const Curve& curve, const Axis& x, const Axis& y) {
 // Its colour and, where colours come round again, its dashes.
 void set_look(cairo_t* page, std::size_t k) {
   set_color(page, colors[k % colors.size()]);
-  const double dash = 2.0 * static_cast<double>(k / colors.size());
+  const std::size_t turn = k / colors.size();
+  const double dash = 2.0 * static_cast<double>(turn);
   const std::array<double, 2> dashes{dash, 3};
   cairo_set_dash(page, dashes.data(), dash > 0 ? 2 : 0, 0);
 }
