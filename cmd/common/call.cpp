@@ -40,13 +40,10 @@ std::vector<std::string> option_names(const Scan& scan) {
 }
 
 [[noreturn]] void refuse_unknown(const Scan& scan, const std::string& name) {
-  for (const CLI::App* job : scan.app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (!scan.job && job->get_option_no_throw(name))
-      throw text::usage_error(std::string(name)
-                                  .append(" belongs behind a WORLD: sg-gen WORLD ")
-                                  .append(name)
-                                  .append(" ..."));
-  }
+  const auto jobs = scan.app.get_subcommands([](const CLI::App*) { return true; });
+  const auto takes_it = [&](const CLI::App* job) { return job->get_option_no_throw(name); };
+  if (!scan.job && std::ranges::any_of(jobs, takes_it))
+    throw text::usage_error(name + " belongs behind a WORLD: sg-gen WORLD " + name + " ...");
   const std::string near = text::nearest(name, option_names(scan));
   throw text::usage_error(
       name + (near.empty() ? ": there is no such option" : ": did you mean " + near + "?"));

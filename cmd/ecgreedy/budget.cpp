@@ -38,9 +38,7 @@ Linearized linearized(const Graph& graph) {
 
 std::vector<bool> kept_within(const prune::Choice& choice, const prune::EcGreedyOptions& greedy) {
   const Linearized whole = linearized(choice.graph);
-  prune::EcGreedyOptions untold = greedy;
-  untold.told = false;
-  std::vector<prune::Move> moves = prune::ecgreedy(choice, whole.evidence, untold);
+  std::vector<prune::Move> moves = prune::ecgreedy(choice, whole.evidence, greedy);
   if (moves.empty()) throw score::singular_error(whole.problem, whole.values);
   if (greedy.ec) moves.resize(prune::moves_within(choice, moves, *greedy.ec, greedy));
   return prune::kept_by(choice.candidates, with_free(choice, whole.evidence, moves, greedy));

@@ -148,14 +148,16 @@ bool parts_nothing(const Piece& piece, const graph::Lists<>& parts) {
 }
 
 // Minimum fill's order in place of another, if it is cheaper. Where nothing is around, that is for the caller to try.
-void contest(const Piece& piece, Ordered& by_parts) {
+// whole: that order, if it is known.
+void contest(const Piece& piece, Dissected whole, Ordered& by_parts) {
   if (piece.outer.empty()) return;
   const auto ec = static_cast<double>(by_parts.found.ec);
   by_parts.contested = by_parts.contested && ec <= narrow * static_cast<double>(piece.entries());
   if (!by_parts.contested) return;
-  Dissected other = by_minimum_fill(piece, static_cast<elim::Wide>(near(piece) * ec));
-  by_parts.contested = !other.order.empty();
-  if (by_parts.contested && other.ec < by_parts.found.ec) by_parts.found = std::move(other);
+  const auto most = static_cast<elim::Wide>(near(piece) * ec);
+  if (whole.order.empty()) whole = by_minimum_fill(piece, most);
+  by_parts.contested = !whole.order.empty() && whole.ec <= most;
+  if (by_parts.contested && whole.ec < by_parts.found.ec) by_parts.found = std::move(whole);
 }
 
 Ordered not_parted(Graph& graph, const Piece& piece) {
@@ -166,8 +168,9 @@ Ordered not_parted(Graph& graph, const Piece& piece) {
 
 Ordered dissected(Graph& graph, const Piece& piece) {
   if (piece.size() <= (is_rich(piece) ? medium : small)) return not_parted(graph, piece);
+  Ordered whole{{{}, 0}, false};
   if (graph.cheap && piece.size() <= medium) {
-    Ordered whole = not_parted(graph, piece);
+    whole = not_parted(graph, piece);
     if (graph.cheap) return whole;
   }
   const Separation side = separation(piece, graph.seed + 1);
@@ -180,7 +183,7 @@ Ordered dissected(Graph& graph, const Piece& piece) {
   join_around(piece, around, graph.number, separator);
   for (const Index v : separator.order) result.found.order.push_back(piece.inner[v]);
   result.found.ec += separator_ec(separator);
-  contest(piece, result);
+  contest(piece, std::move(whole.found), result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "lib/prune/candidates.h"
 #include "lib/prune/offer.h"
+#include "lib/prune/settle.h"
 
 namespace sg::prune {
 namespace {
@@ -155,8 +156,10 @@ bool is_told(const EcGreedyOptions& options) {
 
 // What the moves since the factor have gained.
 void settle_moves(Greedy& greedy) {
-  if (!is_told(greedy.part.options)) greedy.settled = greedy.moves.size();
-  if (greedy.settled == greedy.moves.size()) return;
+  if (!is_told(greedy.part.options)) {
+    greedy.settled = greedy.moves.size();
+    return;
+  }
   for (const Settled& settled : settle(greedy.part.knowledge)) {
     Move& move = greedy.moves[greedy.settled++];
     move.gain = chosen(greedy.part, settled.gain);

@@ -5,8 +5,8 @@
 //     gain / (increase of EC + edge_cost times its edges).
 // Moves are an edge, and a landmark that is not in with as many of its observations as determine it. The increase is
 // exact under the order (filled_graph.h); the gain is an estimate in choosing and exact in what is told, if that is wanted
-// (information_gain.h), both by a factor in an order of its own (part.h). Moves wait in a heap under their last value, which is computed anew before it is believed. When EC
-// has grown by a quarter the order is renewed.
+// (information_gain.h, settle.h), both by a factor in an order of its own (part.h). Moves wait in a heap under their last
+// value, which is computed anew before it is believed. When EC has grown by a quarter the order is renewed.
 //
 // What a selection could have for nothing is found at its end: candidates whose variables stand together in one clique.
 // To take them at every renewal binds later orders, and costs more than it gives.

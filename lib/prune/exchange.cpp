@@ -108,6 +108,19 @@ std::optional<double> take(Part& part, std::span<const Move> moves) {
   return achieved(part);
 }
 
+// What these edges gain in a selection that they are not in yet, and its sigma with them.
+void tell(Part& part, Move& free) {
+  const auto now = [&] {
+    refactor(part);
+    take_variances(part.knowledge);
+    return achieved(part);
+  };
+  const double before = now();
+  for (const Index e : free.edges) part.in.edge[e] = true;
+  free.gain = now() - before;
+  free.sigma = mean_sigma(part.knowledge);
+}
+
 }  // namespace
 
 std::vector<Move> exchanged(const Choice& choice, const Evidence& evidence,
@@ -156,15 +169,7 @@ std::optional<Move> free_edges(const Choice& choice, const Evidence& evidence,
     ++free.kept;
   }
   if (free.edges.empty()) return std::nullopt;
-  const auto now = [&] {
-    refactor(part);
-    take_variances(part.knowledge);
-    return achieved(part);
-  };
-  const double before = now();
-  for (const Index e : free.edges) part.in.edge[e] = true;
-  free.gain = now() - before;
-  free.sigma = mean_sigma(part.knowledge);
+  if (options.told) tell(part, free);
   std::vector<Move> all(moves.begin(), moves.end());
   all.push_back(free);
   const elim::Wide allowed = std::max(options.ec.value_or(0), free.ec);

@@ -18,9 +18,6 @@
 //
 // A measurement that is in takes with it, when it goes,
 //     tr[ (I - C)^-1  J S P'P S J' ].
-//
-// What was added tells its exact share when it is settled, all at once: the columns of L'^-1 U (I + C)^-1/2, squared, are
-// by what the variances fell, measurement by measurement.
 #pragma once
 
 #include <boost/random/mersenne_twister.hpp>
@@ -112,13 +109,6 @@ Gain estimated_gain(const Tried& tried);
 Gain estimated_loss(const Tried& tried);
 // Adds one that is up to date.
 void add(Knowledge& knowledge, Tried tried);
-
-struct Settled {
-  Gain gain;          // exact
-  double mean_sigma;  // after it
-};
-// The exact gains of what was added, in order; variances follow. The factor is to be renewed then.
-std::vector<Settled> settle(Knowledge& knowledge);
 
 // Mean standard deviation of a pose's position over all of the graph's poses; constants have none.
 double mean_sigma(const Knowledge& knowledge);

@@ -20,7 +20,7 @@ enum class GainKind : std::uint8_t { trace, aligned, log_det };
 struct Move {
   enum class Kind : std::uint8_t { start, edge, landmark, drop, free } kind;
   std::vector<Index> edges;  // candidates that come in by it; of a drop, that go out
-  double gain;               // exact; of a drop, below zero
+  double gain;               // exact, if told; of a drop, below zero
   elim::Wide increase;       // of EC, under the order as it was; 0 of a drop
   elim::Wide ec;             // after it, under that order; of a drop, in an order of its own
   double sigma;              // after it: mean standard deviation of a pose's position
@@ -33,8 +33,8 @@ struct EcGreedyOptions {
   std::uint64_t seed = 1;  // of the gains' random vectors
   // An elimination order of a part of the graph.
   std::function<graph::Order(const graph::GraphPattern&)> order;
-  bool told =
-      true;  // gains and sigmas of the moves are wanted: settling them takes longer than the choice; else they are 0
+  // Whether the moves' gains and sigmas are wanted; else they may be 0. To settle them takes longer than the choice.
+  bool told = false;
   // Told how many candidates are kept, and asked whether to go on; may be empty.
   std::function<bool(Index kept)> go_on;
 

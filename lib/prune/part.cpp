@@ -1,7 +1,6 @@
 #include "lib/prune/part.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "lib/order/order.h"
 
@@ -17,23 +16,33 @@ void select(Part& part, const std::vector<bool>& kept) {
   place_order(part);
 }
 
+namespace {
+
+graph::GraphPattern variables_in(const Part& part) {
+  return graph::graph_pattern(part.choice.graph, part.in.vertex, part.in.edge);
+}
+
+// All variables: those that are not in, and behind them `variables` in this order.
+graph::Order order_of_all(const Part& part, const graph::GraphPattern& variables,
+                          const graph::Order& order) {
+  const Evidence& evidence = part.evidence;
+  graph::Order all;
+  for (Index j = 0; j < evidence.pattern.variables(); ++j) {
+    if (!part.in.vertex[evidence.variable_vertex[j]]) all.push_back(j);
+  }
+  for (const Index k : order) all.push_back(evidence.vertex_variable[variables.variable_vertex[k]]);
+  return all;
+}
+
+}  // namespace
+
 void place_order(Part& part) {
   const Evidence& evidence = part.evidence;
-  const graph::GraphPattern variables =
-      graph::graph_pattern(part.choice.graph, part.in.vertex, part.in.edge);
-  const auto n = static_cast<Index>(evidence.variable_vertex.size());
-  part.order.clear();
-  for (Index j = 0; j < n; ++j) {
-    if (!part.in.vertex[evidence.variable_vertex[j]]) part.order.push_back(j);
-  }
-  const auto absent = static_cast<Index>(part.order.size());
-  part.low = part.order;
-  const auto variable = [&](Index k) {
-    return evidence.vertex_variable[variables.variable_vertex[k]];
-  };
-  std::ranges::transform(part.options.order(variables), std::back_inserter(part.order), variable);
-  std::ranges::transform(order::elimination_order("metis", variables.pattern),
-                         std::back_inserter(part.low), variable);
+  const graph::GraphPattern variables = variables_in(part);
+  part.order = order_of_all(part, variables, part.options.order(variables));
+  part.low.clear();
+  const auto n = static_cast<Index>(part.order.size());
+  const Index absent = n - variables.pattern.variables();
   part.position.resize(n);
   for (Index k = 0; k < n; ++k) part.position[part.order[k]] = k;
   graph::Pattern rows{evidence.pattern.dim, {}};
@@ -45,6 +54,10 @@ void place_order(Part& part) {
 }
 
 std::vector<Index> refactor(Part& part) {
+  if (part.low.empty()) {
+    const graph::GraphPattern variables = variables_in(part);
+    part.low = order_of_all(part, variables, order::elimination_order("metis", variables.pattern));
+  }
   return refactor(part.knowledge, part.in, part.low);
 }
 

@@ -13,13 +13,13 @@ struct Part {
   const EcGreedyOptions& options;
   Knowledge knowledge;
   Selection in = {};
-  graph::Order order = {};  // of all variables, those that are not in first
-  // The same by dissection, for the factor: its tree is low where the other is a chain from end to end, as a cheap order
-  // of a path is, and what a measurement's root holds is its way to the top.
-  graph::Order low = {};
+  graph::Order order = {};           // of all variables, those that are not in first
   std::vector<Index> position = {};  // in it
   elim::FilledGraph filled = {};     // variables called by their position
   elim::Wide fresh_ec = 0;           // when the order was made
+  // Another for the factor, by dissection; empty before the first factor in the order. Its tree is low where that of a
+  // cheap order of a path is a chain from end to end, and what a measurement's root holds is its way to the top.
+  graph::Order low = {};
 };
 
 // Nothing is in yet.
@@ -29,7 +29,7 @@ Part make_part(const Choice& choice, const Evidence& evidence, const EcGreedyOpt
 void select(Part& part, const std::vector<bool>& kept);
 // A new order of what is in.
 void place_order(Part& part);
-// Factors what is in, in the low order that there is. Returns what is undetermined (information_gain.h).
+// Factors what is in, in the low order. Returns what is undetermined (information_gain.h).
 std::vector<Index> refactor(Part& part);
 
 // Positions of the variables of these rows, ascending: what they would join.

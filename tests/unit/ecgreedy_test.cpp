@@ -68,6 +68,7 @@ struct World {
         poses(graph::pose_index(graph)),
         candidates(prune::candidate_edges(graph, poses, prune::Candidates::both)),
         choice{graph, poses, candidates, min_obs} {
+    options.told = true;
     options.order = [](const graph::GraphPattern& part) {
       return order::elimination_order("wmf", part.pattern);
     };
