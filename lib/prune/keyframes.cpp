@@ -7,8 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "lib/geometry/numbers.h"
-#include "lib/graph/linear.h"
 #include "lib/text/error.h"
 
 namespace sg::prune {
@@ -16,49 +14,6 @@ namespace {
 
 Index pose_count(const graph::PoseIndex& poses) {
   return static_cast<Index>(poses.pose.size());
-}
-
-SE3 estimate(const Graph& graph, Index v) {
-  std::vector<double> n;
-  graph::vertex_numbers(graph, v, n);
-  if (n.size() < 7)
-    throw graph::error_at(graph, graph.vertex_line[v], "a pose wants x y z qx qy qz qw");
-  return normalized(geometry::se3(n.data()));
-}
-
-// Throws where edges of e's type cannot be fused.
-void require_fusible(const Graph& graph, Index e, const std::string& which) {
-  if (graph.edges_only && graph.edge_tag(e) == graph::EdgeTag::expmap) {
-    throw graph::error_at(graph, graph.edge_line[e],
-                          "cannot fuse several " + graph.type_of_edge(e).tag + " " + which +
-                              " without pose estimates");
-  }
-}
-
-// What there is for a factor that cannot be composed.
-std::string other_way(const Graph& graph, Index e) {
-  return graph::is_linear(graph.edge_tag(e)) ? " (sg-marg takes poses out of linear factors)" : "";
-}
-
-// Throws unless all edges of step k can be composed, and fused if there are several.
-void require_composable(const Graph& graph, const graph::Lists<>& odometry, Index k) {
-  for (Index e : odometry[k]) {
-    const graph::EdgeType& type = graph.type_of_edge(e);
-    if (!is_motion(graph.edge_tag(e)) || graph.edge_type[e] != graph.edge_type[odometry[k][0]]) {
-      throw graph::error_at(graph, graph.edge_line[e],
-                            "cannot compose odometry of type " + type.tag +
-                                " across dropped poses" + other_way(graph, e));
-    }
-    if (odometry[k].size() > 1) require_fusible(graph, e, "of one step");
-  }
-}
-
-// Several measurements of a motion from pose `from` on as one.
-Motion fuse_from(const Graph& graph, const graph::PoseIndex& poses, Index from,
-                 const std::vector<Motion>& motions) {
-  const bool needs_estimate =
-      motions.size() > 1 && std::holds_alternative<ExpmapMotion>(motions[0]);
-  return fuse(motions, needs_estimate ? estimate(graph, poses.pose[from]) : SE3{});
 }
 
 // Nearest keyframe of every pose within its segment, the earlier of two equally near.
@@ -301,28 +256,6 @@ void find_late_lines(Keyframing& kf) {
 }
 
 }  // namespace
-
-graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses) {
-  std::vector<Index> step(graph.edges(), -1);
-  for (Index e = 0; e < graph.edges(); ++e) {
-    if (graph::edge_role(graph, poses, e) != graph::EdgeRole::odometry) continue;
-    const auto ends = graph.edge(e);
-    step[e] = std::max(poses.index[ends[0]], poses.index[ends[1]]);
-  }
-  return graph::grouped(step, pose_count(poses));
-}
-
-Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
-                   const graph::Lists<>& odometry, Index k) {
-  require_composable(graph, odometry, k);
-  std::vector<Motion> motions;
-  for (Index e : odometry[k]) {
-    const Motion forward_or_back = motion(graph, e).value();
-    const bool back = graph.edge(e)[0] == poses.pose[k];
-    motions.push_back(back ? inverse(forward_or_back) : forward_or_back);
-  }
-  return fuse_from(graph, poses, k - 1, motions);
-}
 
 std::vector<bool> choose_keyframes(const Graph& graph, const graph::PoseIndex& poses,
                                    const graph::Lists<>& odometry, const KeyframeRule& rule) {

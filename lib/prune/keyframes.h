@@ -24,7 +24,7 @@
 #include "lib/graph/lists.h"
 #include "lib/graph/replay.h"
 #include "lib/prune/candidates.h"
-#include "lib/prune/motion.h"
+#include "lib/prune/steps.h"
 
 namespace sg::prune {
 
@@ -47,14 +47,6 @@ struct KeyframingOptions {
   std::optional<Revisit> revisit;  // merge such keyframes into earlier ones
   bool fuse = false;  // edges that come to join the same pair become one, their information added
 };
-
-// The odometry edges of every step: step k leads from pose k - 1 to pose k.
-graph::Lists<> odometry_steps(const Graph& graph, const graph::PoseIndex& poses);
-
-// The motion of step k, from pose k - 1 to pose k; several edges are fused. Throws an input Error where they are of no
-// composable type.
-Motion step_motion(const Graph& graph, const graph::PoseIndex& poses,
-                   const graph::Lists<>& odometry, Index k);
 
 // Throws an input Error where distance or angle cannot be measured, for a step whose edges are of
 // no composable type.
