@@ -100,7 +100,10 @@ std::optional<Admission::Held> lowest(Isam2Replay& replay, Admission& admission,
     Admission::Held held = pop(admission);
     if (edges_of(replay.isam, held).empty()) continue;  // has left
     ++look;
-    if (held.rate < limit) held.rate = rate_now(replay, admission, held);
+    if (held.rate < limit && held.looked != replay.isam.updates) {
+      held.rate = rate_now(replay, admission, held);
+      held.looked = replay.isam.updates;
+    }
     const bool low =
         held.rate < limit && (admission.held.empty() || held.rate <= admission.held.front().rate);
     if (low) return held;

@@ -25,10 +25,11 @@ struct Offer {
 
 struct Admission {
   struct Held {
-    double rate;     // gain per rise of EC_BT, when it was last looked at
-    double cost;     // that rise
-    Index edge;      // -1:
-    Index landmark;  // the variable, with all its edges
+    double rate;        // gain per rise of EC_BT, when it was last looked at
+    double cost;        // that rise
+    Index edge;         // -1:
+    Index landmark;     // the variable, with all its edges
+    Index looked = -1;  // before which update that was; as long as there is none, the rate is that
   };
   std::vector<Held> held;    // a heap, the lowest rate on top; edges that have left since included
   std::vector<Index> place;  // by variable (isam2_admit.h)

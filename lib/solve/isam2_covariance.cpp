@@ -25,38 +25,44 @@ MatrixXd projected_covariance(Isam2& isam, std::span<const Index> variables,
                               const MatrixXd& jacobian) {
   const std::vector<Index>& at = isam.problem->step_at;
   const std::vector<int>& dim = pattern_of(isam).dim;
-  const Eigen::Index h = jacobian.rows();
+  const auto h = static_cast<int>(jacobian.rows());
+  const int ld = round_up(h);
   std::vector<double>& numbers = isam.work.rhs;
-  numbers.resize(std::max(numbers.size(), static_cast<std::size_t>(at.back() * h)), 0.0);
-  Eigen::Map<Rows> rhs(numbers.data(), at.back(), h);
+  numbers.resize(std::max(numbers.size(), static_cast<std::size_t>(at.back()) * ld + lane), 0.0);
+  const auto rows_of_variable = [&](Index j) {
+    return Eigen::Map<Rows>(numbers.data() + static_cast<std::size_t>(at[j]) * ld, dim[j], ld);
+  };
   Eigen::Index column = 0;
   for (Index j : variables) {
-    rhs.middleRows(at[j], dim[j]) += jacobian.middleCols(column, dim[j]).transpose();
+    rows_of_variable(j).leftCols(h) += jacobian.middleCols(column, dim[j]).transpose();
     column += dim[j];
   }
-  MatrixXd result = MatrixXd::Zero(h, h);
+  Rows minus = Rows::Zero(h + 1, ld);  // a row of slack
+  Rows u, below;
   std::vector<Index>& path = isam.work.edges;
   path_to_root(isam, variables, path);
   for (Index c : path) {
     const Isam2Clique& clique = isam.tree.cliques[c];
     const Front front = front_of(isam.tree, clique);
-    const Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>> l(front.l, front.n, front.f,
-                                                                Eigen::OuterStride<>(front.ld_l()));
-    MatrixXd u(front.f, h);
+    if (u.rows() < front.f + 1) u.resize(front.f + 1, ld);
+    if (below.rows() < front.s() + 1) below.resize(front.s() + 1, ld);
     Eigen::Index row = 0;
     for (Index j : frontals_of(isam.tree, clique)) {
-      u.middleRows(row, dim[j]) = rhs.middleRows(at[j], dim[j]);
-      rhs.middleRows(at[j], dim[j]).setZero();
+      u.middleRows(row, dim[j]) = rows_of_variable(j);
+      rows_of_variable(j).setZero();
       row += dim[j];
     }
-    l.topRows(front.f).triangularView<Eigen::Lower>().solveInPlace(u);
-    result.noalias() += u.transpose() * u;
+    kernels().solve_lower(front.l, front.ld_l(), u.data(), ld, 0, front.f, h);
+    kernels().subtract_product(minus.data(), ld, u.data(), ld, u.data(), ld, h, h, front.f);
+    kernels().negative_product(below.data(), ld, u.data(), ld, front.l + front.f, front.ld_l(), h,
+                               front.s(), front.f);
+    row = 0;
     for (Index j : separators_of(isam.tree, clique)) {
-      rhs.middleRows(at[j], dim[j]).noalias() -= l.middleRows(row, dim[j]) * u;
+      rows_of_variable(j) += below.middleRows(row, dim[j]);
       row += dim[j];
     }
   }
-  return result;
+  return -minus.topLeftCorner(h, h);
 }
 
 MatrixXd covariance(Isam2& isam, Index j) {
