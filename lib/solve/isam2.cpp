@@ -29,6 +29,7 @@ Isam2 make_isam2(const factor::Problem& problem, const Isam2Options& options) {
   isam.leaving.assign(n, false);
   isam.pinned.assign(n, false);
   isam.row_update.assign(pattern.rows.size(), -1);
+  isam.forgotten.assign(pattern.rows.size(), false);
   isam.gram_at.assign(pattern.rows.size(), -1);
   isam.work.local.assign(n, -1);
   isam.work.row_at.assign(n, -1);

@@ -102,6 +102,7 @@ struct Isam2 {
 
   // By row of the problem's pattern.
   std::vector<Index> row_update;  // that last linearized it
+  std::vector<bool> forgotten;    // goes with this update, and passes nothing on (isam2_turns.h)
   std::vector<Offset> gram_at;    // of a row that is there, in grams; -1 of others
   Pool gram_pool;
   std::vector<double> grams;  // [A b]'[A b]

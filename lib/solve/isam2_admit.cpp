@@ -115,19 +115,21 @@ double gain(Isam2& isam, const Measurement& m, std::span<const Index> place, boo
   const MatrixXd& J = m.jacobian;
   const MatrixXd S =
       projected_covariance(isam, m.variables, MatrixXd::Identity(J.cols(), J.cols()));
-  MatrixXd inner = J * S * J.transpose();
+  const MatrixXd seen = J * S;
+  MatrixXd inner = seen * J.transpose();
   if (given_back) inner = -inner;
   inner.diagonal().array() += 1;
   const Eigen::LDLT<MatrixXd> ldlt(inner);
   if (given_back && !(ldlt.vectorD().minCoeff() > 1e-9))
     return std::numeric_limits<double>::infinity();
-  const MatrixXd fall = S * J.transpose() * ldlt.solve(J * S);
+  const MatrixXd weighed = ldlt.solve(seen);
+  const Eigen::VectorXd fall = (seen.array() * weighed.array()).colwise().sum();  // of variances
   // By place.
   std::vector<std::pair<Index, double>> falls;
   Index column = 0;
   for (Index j : m.variables) {
     const auto [first, size] = position_of(isam, j);
-    falls.emplace_back(place[j], fall.diagonal().segment(column + first, size).sum());
+    falls.emplace_back(place[j], fall.segment(column + first, size).sum());
     column += pattern_of(isam).dim[j];
   }
   std::ranges::sort(falls);

@@ -32,8 +32,9 @@ void gather_top(Isam2& isam, std::span<const Index> new_variables,
     // Some may have been given back (isam2_admission.h).
     std::ranges::copy_if(frontals, std::back_inserter(work.variables),
                          [&](Index j) { return isam.tree.variable_clique[j] >= 0; });
-    std::ranges::copy_if(rows, std::back_inserter(work.rows),
-                         [&](Index r) { return isam.tree.row_clique[r] >= 0; });
+    std::ranges::copy_if(rows, std::back_inserter(work.rows), [&](Index r) {
+      return isam.tree.row_clique[r] >= 0 && !isam.forgotten[r];
+    });
     for (Index child = clique.first_child; child >= 0; child = isam.tree.cliques[child].next) {
       if (isam.tree.cliques[child].marked != isam.updates) work.orphans.push_back(child);
     }

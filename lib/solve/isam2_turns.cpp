@@ -5,6 +5,7 @@
 
 #include "lib/order/stopwatch.h"
 #include "lib/solve/isam2_leave.h"
+#include "lib/solve/landmark_point.h"
 
 namespace sg::solve {
 namespace {
@@ -14,41 +15,78 @@ bool is_present(const Isam2Window& window, Index v) {
   return window.replay.poses.index[v] < 0 && window.last_seen[v] >= 0 && !window.left[v];
 }
 
-// Variables that the next turn would let go.
-std::vector<Index> next_to_leave(const Isam2Window& window, Index k) {
+// Rows of landmark v that are there or come with this step, and name none of the poses that leave with the next turn.
+Index rows_left(const Isam2Window& window, Index v) {
+  const Isam2& isam = window.replay.isam;
+  const auto stays = [&](Index r) {
+    return (isam.tree.row_clique[r] >= 0 || enters(isam, r)) &&
+           std::ranges::none_of(window.replay.problem->graph->edge(r), [&](Index u) {
+             const Index pose = window.replay.poses.index[u];
+             return 0 <= pose && pose <= window.first;
+           });
+  };
+  return std::ranges::count_if(rows_of(isam, variable_of(window.replay, v)), stays);
+}
+
+// Whether landmark v stays when the oldest pose that saw it along edge e has left.
+bool outlasts(const Isam2Window& window, Index v, Index e, Index k) {
+  if (!sees_along_ray(*window.replay.problem, e)) return window.last_seen[v] > window.first;
+  return window.last_seen[v] >= k - 1 && rows_left(window, v) >= window.min_obs;
+}
+
+// What the next turn would let go.
+struct Next {
+  std::vector<Index> variables, rays;
+};
+
+Next next_to_leave(const Isam2Window& window, Index k) {
+  const factor::Problem& problem = *window.replay.problem;
   const Index pose = window.replay.poses.pose[window.first];
   const bool newest = window.first == k;
-  std::vector<Index> variables;
+  Next next;
   const auto leaves = [&](Index v) {
-    const Index j = window.replay.problem->variables.vertex_variable[v];
-    if (j >= 0 && !window.left[v] && std::ranges::find(variables, j) == variables.end())
-      variables.push_back(j);
+    const Index j = problem.variables.vertex_variable[v];
+    if (j >= 0 && !window.left[v] && std::ranges::find(next.variables, j) == next.variables.end())
+      next.variables.push_back(j);
   };
   for (Index e : window.edges_of[pose]) {
-    for (Index v : window.replay.problem->graph->edge(e)) {
-      if (!is_present(window, v) || window.last_seen[v] > window.first) continue;
-      if (newest && !variables.empty()) continue;  // one of them
-      leaves(v);
+    for (Index v : problem.graph->edge(e)) {
+      if (!is_present(window, v)) continue;
+      if (newest) {
+        if (next.variables.empty()) leaves(v);  // one of them
+      } else if (!outlasts(window, v, e, k)) {
+        leaves(v);
+      } else if (sees_along_ray(problem, e) && window.replay.isam.tree.row_clique[e] >= 0) {
+        next.rays.push_back(e);
+      }
     }
   }
   if (!newest) leaves(pose);
-  return variables;
+  return next;
 }
 
 // What it would free of EC_BT, by the tree as it is.
 double freed_by_turn(const Isam2Window& window, Index k) {
   double sum = 0;
-  for (const Index j : next_to_leave(window, k)) sum += freed_by(window.replay.isam, j);
+  for (const Index j : next_to_leave(window, k).variables) sum += freed_by(window.replay.isam, j);
   return sum;
 }
 
 void add_turn(Isam2Window& window, Index k, Leaving& leaving) {
+  Isam2& isam = window.replay.isam;
   const bool pose = window.first < k;
-  leaving.turn.push_back({leaving.variables.size(), window.first, pose, freed_by_turn(window, k)});
-  for (const Index j : next_to_leave(window, k)) {
+  leaving.turn.push_back({leaving.variables.size(), leaving.rays.size(), window.first, pose,
+                          freed_by_turn(window, k)});
+  const Next next = next_to_leave(window, k);
+  for (const Index j : next.variables) {
     window.left[window.replay.problem->variables.variable_vertex[j]] = true;
-    window.replay.isam.leaving[j] = true;
+    isam.leaving[j] = true;
     leaving.variables.push_back(j);
+  }
+  for (const Index r : next.rays) {
+    mark_to_root(isam, isam.tree.row_clique[r]);
+    isam.forgotten[r] = true;
+    leaving.rays.push_back(r);
   }
   if (!pose) return;
   --window.there;
@@ -66,6 +104,9 @@ void last_stays(Isam2Window& window, Leaving& leaving) {
     window.replay.isam.leaving[j] = false;
   }
   leaving.variables.resize(turn.variables);
+  for (std::size_t i = turn.rays; i < leaving.rays.size(); ++i)
+    window.replay.isam.forgotten[leaving.rays[i]] = false;
+  leaving.rays.resize(turn.rays);
   window.first = turn.first;
   while (is_composed(window.keyframes, window.first)) ++window.first;
   window.there += turn.pose ? 1 : 0;

@@ -207,6 +207,10 @@ void carry_out(Isam2Window& window, const Entering& entering, const CliqueTree& 
                const Leaving& leaving, Isam2Report& report) {
   Isam2& isam = window.replay.isam;
   redo_and_solve(isam, entering.variables, entering.rows, plan, report);
+  for (Index r : leaving.rays) {
+    isam.forgotten[r] = false;
+    let_row_go(isam, r);
+  }
   if (report.undetermined.empty() && report.finite)
     take_leave(isam, leaving.variables, window.options.smooth, report);
 }

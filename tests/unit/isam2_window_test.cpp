@@ -192,3 +192,53 @@ TEST_CASE("gain is by how much variances fall, and what giving back would lose",
     if (together) CHECK(isam.tree.ec_bt <= 2 * before);
   }
 }
+
+TEST_CASE("landmarks seen along rays leave with their tracks, and no prior reaches them before",
+          "[isam2]") {
+  Random random(8);
+  int forgotten = 0, left = 0;
+  for (int trial = 0; trial < 6; ++trial) {
+    std::string lines;
+    constexpr int poses = 40;
+    for (int k = 1; k < poses; ++k) {
+      lines += "EDGE_SE2 " + std::to_string(2 * k - 2) + " " + std::to_string(2 * k) + " 1 " +
+               text(uniform(random, -0.01, 0.01)) + "0 1e4 0 0 1e4 0 1e6\n";
+    }
+    for (int l = 0; l < poses; ++l) {
+      const int tracked = draw(random, 2, 12);
+      for (int k = l; k < std::min(poses, l + tracked); ++k) {
+        lines += "EDGE_BEARING_SE2_XY " + std::to_string(2 * k) + " " + std::to_string(2 * l + 1) +
+                 " " + text(std::atan2(5, l + 4 - k) + uniform(random, -1e-3, 1e-3)) + "1e6\n";
+      }
+    }
+    const sg::Graph graph = graph_of(lines);
+    const sg::factor::Problem problem = sg::factor::make_problem(graph);
+    const int min_obs = 2 + trial % 2;
+    const sg::solve::WindowOptions options{.lag = draw(random, 3, 8)};
+    auto window = sg::solve::make_isam2_window(problem, exact(trial), min_obs, false, options);
+    const sg::solve::Isam2& isam = window.replay.isam;
+    std::vector<bool> was_there(graph.edges(), false);
+    for (sg::Index k = 0; k < window.replay.steps.steps; ++k) {
+      sg::solve::window_step(window, k);
+      check_counts(isam);
+      for (sg::Index v = 0; v < graph.vertices(); ++v) {
+        if (graph.role(v) != sg::graph::Role::landmark) continue;
+        const sg::Index j = problem.variables.vertex_variable[v];
+        if (isam.tree.variable_clique[j] < 0) continue;
+        CHECK_FALSE(isam.pinned[j]);
+        CHECK(window.last_seen[v] >= window.first);
+        CHECK(rows_in(isam, j).size() >= static_cast<std::size_t>(min_obs));
+      }
+      for (sg::Index e = 0; e < graph.edges(); ++e) {
+        const bool there = isam.tree.row_clique[e] >= 0;
+        const sg::Index v = graph.edge(e)[1];
+        const bool landmark_stays =
+            isam.tree.variable_clique[problem.variables.vertex_variable[v]] >= 0;
+        if (was_there[e] && !there) ++(landmark_stays ? forgotten : left);
+        was_there[e] = there;
+      }
+    }
+  }
+  CHECK(forgotten > 100);
+  CHECK(left > 100);
+}

@@ -210,3 +210,16 @@ corridor() {
   fails 2 "sg-isam2: --batch has no effect where poses leave: the whole is not there to be eliminated (see sg-isam2 --help)" \
     sg-isam2 --batch --lag 3 "$TESTDATA/walk.g2o"
 }
+
+@test "a window over pixels or bearings, of any lag, is no worse than twice its odometry alone" {
+  rms() { awk '{sum += $1 * $1} END {print sqrt(sum / NR)}'; }
+  for sensor in "" "--dim 2 --sensor bearing"; do
+    sg-gen sine -n 120 $sensor --truth truth.g2o -o in.g2o
+    alone=$(sg-isam2 -q --lag 3 --min-obs 1000 --truth truth.g2o -f error --no-header in.g2o | rms)
+    for lag in 2 3 5 8 12 20; do
+      sg-isam2 -q --lag $lag --min-obs 3 --truth truth.g2o -f error --no-header in.g2o > errors
+      [ "$(wc -l < errors)" = 120 ]
+      awk -v error="$(rms < errors)" -v alone="$alone" 'BEGIN {print error, alone; exit !(error < 2 * alone)}'
+    done
+  done
+}
