@@ -1,12 +1,10 @@
 #include "lib/factor/linearize.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "lib/parallel/parallel.h"
 #include "lib/text/error.h"
 
 namespace sg::factor {
@@ -145,11 +143,8 @@ void check_row(const Problem& problem, Index r, std::span<const double> block) {
 void linearize(const Problem& problem, const Values& values, const Loss& loss,
                LinearSystem& system) {
   assert(is_laid_out(system) && system.pattern->dim == problem.variables.pattern.dim);
-  using Range = tbb::blocked_range<Index>;
-  tbb::parallel_for(Range(0, system.pattern->rows.size(), 512), [&](const Range& range) {
-    for (Index r = range.begin(); r != range.end(); ++r) {
-      linearize_row(problem, values, loss, r, system.block(r));
-    }
+  parallel::each_part<Index>(system.pattern->rows.size(), 512, [&](Index first, Index last) {
+    for (Index r = first; r < last; ++r) linearize_row(problem, values, loss, r, system.block(r));
   });
   for (Index r = 0; r < problem.graph->edges(); ++r)  // the first one in the file is told
     check_row(problem, r, {system.block(r), system.block(r + 1)});

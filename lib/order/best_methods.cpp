@@ -1,6 +1,5 @@
 #include "lib/order/best_methods.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include "lib/order/metis.h"
 #include "lib/order/polish.h"
 #include "lib/order/wmf.h"
+#include "lib/parallel/parallel.h"
 
 namespace sg::order {
 namespace {
@@ -76,7 +76,7 @@ std::vector<Found> take_coarse(Search& search) {
 template <class Work>
 void in_turn(std::size_t count, const Work& work) {
   std::atomic<std::size_t> next = 0;
-  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
+  parallel::each(tbb::this_task_arena::max_concurrency(), [&](int) {
     for (std::size_t k = next++; k < count; k = next++) work(k);
   });
 }

@@ -1,7 +1,5 @@
 #include "lib/order/best_tries.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -11,6 +9,7 @@
 #include "lib/order/region.h"
 #include "lib/order/supervariables.h"
 #include "lib/order/wmf.h"
+#include "lib/parallel/parallel.h"
 
 namespace sg::order {
 namespace {
@@ -195,7 +194,7 @@ void take_best_of_tries(Search& search) {
   const auto tries_left = [&](int done) { return budget.seconds > 0 || done < budget.tries; };
   for (int done = 0; tries_left(done) && time_left(); done += tries_a_round) {
     std::vector<Try> tries(tries_a_round);
-    tbb::parallel_for(0, tries_a_round, [&](int i) {
+    parallel::each(tries_a_round, [&](int i) {
       if (tries_left(done + i) && time_left()) tries[i] = one_try(start, done + i);
     });
     take_round(search, start, tries, done + tries_a_round);

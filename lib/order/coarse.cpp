@@ -1,7 +1,5 @@
 #include "lib/order/coarse.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -10,6 +8,7 @@
 #include "lib/order/amd.h"
 #include "lib/order/breadth_first.h"
 #include "lib/order/piece.h"
+#include "lib/parallel/parallel.h"
 
 namespace sg::order {
 namespace {
@@ -85,7 +84,7 @@ void dissect(Work& work, std::span<Index> region) {
       region.subspan(level.begin, region.size() - separator - level.begin);
   std::ranges::sort(below);
   std::ranges::sort(above);
-  tbb::parallel_invoke([&] { dissect(work, below); }, [&] { dissect(work, above); });
+  parallel::both([&] { dissect(work, below); }, [&] { dissect(work, above); });
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "lib/order/polish.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -12,6 +10,7 @@
 #include "lib/order/region.h"
 #include "lib/order/stopwatch.h"
 #include "lib/order/wmf.h"
+#include "lib/parallel/parallel.h"
 
 namespace sg::order {
 namespace {
@@ -97,7 +96,7 @@ graph::Order swept(const Elimination& elimination, const std::vector<Region>& re
                    graph::Order (*better)(const Region&, const graph::Adjacency&),
                    const PolishOptions& options, double afterwards) {
   std::vector<graph::Order> orders(regions.size());
-  tbb::parallel_for(std::size_t{0}, regions.size(), [&](std::size_t k) {
+  parallel::each(regions.size(), [&](std::size_t k) {
     const auto inner = static_cast<Index>(regions[k].inside.size());
     if (stopped(options, afterwards) || inner < 2) return;
     const graph::Adjacency graph = part_graph(regions[k]);

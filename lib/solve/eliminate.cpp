@@ -2,7 +2,6 @@
 
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/parallel/parallel.h"
 #include "lib/solve/assembly.h"
 #include "lib/solve/factorize.h"
 #include "lib/solve/pivots.h"
@@ -209,10 +209,10 @@ void run_tasks(const Elimination& e, Work&& work) {
   std::vector<std::atomic<int>> waiting(tasks);
   for (Index t = 0; t < tasks; ++t) waiting[t] = e.tasks[t].children;
   tbb::task_arena(std::min(e.threads, tbb::info::default_concurrency())).execute([&] {
-    tbb::task_group group;
+    parallel::Tasks group;
     for (Index leaf = 0; leaf < tasks; ++leaf) {
       if (e.tasks[leaf].children > 0) continue;
-      group.run([&, leaf] {
+      group.begin([&, leaf] {
         // The last child to finish goes on with its parent.
         for (Index t = leaf; t >= 0;) {
           work(t);

@@ -1,10 +1,11 @@
 #include "lib/solve/factorize.h"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cassert>
+
+#include "lib/parallel/parallel.h"
 
 namespace sg::solve {
 namespace {
@@ -20,7 +21,7 @@ void each_block(int tiles, int at_once, bool parallel, Work&& work) {
   const auto block = [&](int b) { work(b * at_once, std::min((b + 1) * at_once, tiles)); };
   if (parallel) {
     // Isolated: a thread that waits must not take up another front, whose work it would write over.
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, blocks, block); });
+    tbb::this_task_arena::isolate([&] { parallel::each(blocks, block); });
   } else {
     for (int b = 0; b < blocks; ++b) block(b);
   }

@@ -1,0 +1,104 @@
+// Work on several threads: oneTBB's algorithms, with what its hand-over of work guarantees told to the thread sanitizer.
+//
+// What was written before work is handed over can be read where it is done, and what was written there, by who waits for it.
+// libtbb brings that about by atomics, of which the sanitizer knows nothing, since Debian's is not built for it. Two pieces of
+// work have no order by this: a race between them is seen.
+#pragma once
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <utility>
+
+#ifdef __has_feature
+#if __has_feature(thread_sanitizer)
+#define SGTOOLS_THREAD_SANITIZER
+extern "C" void __tsan_acquire(void* at);
+extern "C" void __tsan_release(void* at);
+#endif
+#endif
+
+namespace sg::parallel {
+
+// From who calls to those that work, and back.
+struct HandOver {
+#ifdef SGTOOLS_THREAD_SANITIZER
+  void give() const {
+    __tsan_release(&given);
+  }
+  void take() const {
+    __tsan_acquire(&given);
+  }
+  void done() const {
+    __tsan_release(&back);
+  }
+  void take_back() const {
+    __tsan_acquire(&back);
+  }
+  mutable char given = 0, back = 0;
+#else
+  void give() const {}
+  void take() const {}
+  void done() const {}
+  void take_back() const {}
+#endif
+};
+
+// A piece of work, taken and done.
+template <class Work>
+void take(const HandOver& hand_over, const Work& work) {
+  hand_over.take();
+  work();
+  hand_over.done();
+}
+
+// Calls work(k) for 0 .. count - 1.
+template <class Number, class Work>
+void each(Number count, const Work& work) {
+  const HandOver hand_over;
+  hand_over.give();
+  tbb::parallel_for(Number{0}, count, [&](Number k) { take(hand_over, [&] { work(k); }); });
+  hand_over.take_back();
+}
+
+// Calls work(first, last) for parts of 0 .. count, each of at most about `grain`.
+template <class Number, class Work>
+void each_part(Number count, Number grain, const Work& work) {
+  using Range = tbb::blocked_range<Number>;
+  const HandOver hand_over;
+  hand_over.give();
+  tbb::parallel_for(Range(0, count, grain), [&](const Range& part) {
+    take(hand_over, [&] { work(part.begin(), part.end()); });
+  });
+  hand_over.take_back();
+}
+
+template <class First, class Second>
+void both(const First& first, const Second& second) {
+  const HandOver hand_over;
+  hand_over.give();
+  tbb::parallel_invoke([&] { take(hand_over, first); }, [&] { take(hand_over, second); });
+  hand_over.take_back();
+}
+
+// Pieces of work that are begun one by one.
+class Tasks {
+ public:
+  template <class Work>
+  void begin(Work work) {
+    hand_over_.give();
+    group_.run([this, work = std::move(work)] { take(hand_over_, work); });
+  }
+  void wait() {
+    group_.wait();
+    hand_over_.take_back();
+  }
+
+ private:
+  tbb::task_group group_;
+  HandOver hand_over_;
+};
+
+}  // namespace sg::parallel
