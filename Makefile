@@ -14,7 +14,7 @@ python_packages := python3-dev python3-numpy pybind11-dev
 test_packages  := catch2 bats mandoc graphviz zstd gzip bzip2 xz-utils $(python_packages)
 lint_packages  := clang-format clang-tidy python3 mandoc git
 bench_packages := libbenchmark-dev
-fuzz_packages  := clang libclang-rt-14-dev
+clang_packages := clang libclang-rt-14-dev
 plot_packages  := gnuplot-nox graphviz
 blas_packages  := libopenblas0-serial
 deb_packages   := dpkg-dev fakeroot lintian
@@ -96,16 +96,13 @@ bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OP
 	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
 
 fuzz: PRESET := fuzz
-fuzz: build/packages/build build/packages/fuzz ## fuzz every reader for 60 seconds under the sanitizers, then the calls of every command (FUZZ_SECONDS=60)
+fuzz: build/packages/build build/packages/clang ## fuzz every reader, and the calls of every command, for 60 seconds each under the sanitizers (FUZZ_SECONDS=60)
 	@$(call configure,$(commands_alone))
 	@$(call build,fuzzers)
-	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60)
-	@$(MAKE) --no-print-directory build PRESET=release
-	@$(CXX) -std=c++20 -O1 -shared -fPIC tests/prefork.cpp -o build/release/prefork.so
-	@PREFORK_LIBRARY=$(CURDIR)/build/release/prefork.so tests/fuzz/calls build/release/bin $(or $(FUZZ_SECONDS),60)
+	@tests/fuzz/run build/fuzz/bin $(or $(FUZZ_SECONDS),60) $(JOBS)
 
 tsan: PRESET := tsan
-tsan: build/packages/build build/packages/test ## run what is parallel under the thread sanitizer
+tsan: build/packages/build build/packages/test build/packages/clang ## run what is parallel under the thread sanitizer
 	@$(call configure,-DSGTOOLS_TESTS=ON)
 	@$(call build,unit_tests)
 	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" $(BUILD)/tests/unit_tests "[parallel]"
