@@ -5,7 +5,6 @@
 
 #include "lib/order/stopwatch.h"
 #include "lib/solve/isam2_leave.h"
-#include "lib/solve/landmark_point.h"
 
 namespace sg::solve {
 namespace {
@@ -28,15 +27,20 @@ Index rows_left(const Isam2Window& window, Index v) {
   return std::ranges::count_if(rows_of(isam, variable_of(window.replay, v)), stays);
 }
 
-// Whether landmark v stays when the oldest pose that saw it along edge e has left.
+// Whether edge e sees of landmark v not where it stands but an image of that: pixels, a disparity, a bearing.
+bool sees_image(const factor::Problem& problem, Index e, Index v) {
+  return graph::row(problem.model[e]->type).measure.space != problem.space[v];
+}
+
+// Whether landmark v stays when the oldest pose, which saw it by edge e, has left.
 bool outlasts(const Isam2Window& window, Index v, Index e, Index k) {
-  if (!sees_along_ray(*window.replay.problem, e)) return window.last_seen[v] > window.first;
+  if (!sees_image(*window.replay.problem, e, v)) return window.last_seen[v] > window.first;
   return window.last_seen[v] >= k - 1 && rows_left(window, v) >= window.min_obs;
 }
 
 // What the next turn would let go.
 struct Next {
-  std::vector<Index> variables, rays;
+  std::vector<Index> variables, images;
 };
 
 Next next_to_leave(const Isam2Window& window, Index k) {
@@ -56,8 +60,8 @@ Next next_to_leave(const Isam2Window& window, Index k) {
         if (next.variables.empty()) leaves(v);  // one of them
       } else if (!outlasts(window, v, e, k)) {
         leaves(v);
-      } else if (sees_along_ray(problem, e) && window.replay.isam.tree.row_clique[e] >= 0) {
-        next.rays.push_back(e);
+      } else if (sees_image(problem, e, v) && window.replay.isam.tree.row_clique[e] >= 0) {
+        next.images.push_back(e);
       }
     }
   }
@@ -75,7 +79,7 @@ double freed_by_turn(const Isam2Window& window, Index k) {
 void add_turn(Isam2Window& window, Index k, Leaving& leaving) {
   Isam2& isam = window.replay.isam;
   const bool pose = window.first < k;
-  leaving.turn.push_back({leaving.variables.size(), leaving.rays.size(), window.first, pose,
+  leaving.turn.push_back({leaving.variables.size(), leaving.images.size(), window.first, pose,
                           freed_by_turn(window, k)});
   const Next next = next_to_leave(window, k);
   for (const Index j : next.variables) {
@@ -83,10 +87,10 @@ void add_turn(Isam2Window& window, Index k, Leaving& leaving) {
     isam.leaving[j] = true;
     leaving.variables.push_back(j);
   }
-  for (const Index r : next.rays) {
+  for (const Index r : next.images) {
     mark_to_root(isam, isam.tree.row_clique[r]);
     isam.forgotten[r] = true;
-    leaving.rays.push_back(r);
+    leaving.images.push_back(r);
   }
   if (!pose) return;
   --window.there;
@@ -104,9 +108,9 @@ void last_stays(Isam2Window& window, Leaving& leaving) {
     window.replay.isam.leaving[j] = false;
   }
   leaving.variables.resize(turn.variables);
-  for (std::size_t i = turn.rays; i < leaving.rays.size(); ++i)
-    window.replay.isam.forgotten[leaving.rays[i]] = false;
-  leaving.rays.resize(turn.rays);
+  for (std::size_t i = turn.images; i < leaving.images.size(); ++i)
+    window.replay.isam.forgotten[leaving.images[i]] = false;
+  leaving.images.resize(turn.images);
   window.first = turn.first;
   while (is_composed(window.keyframes, window.first)) ++window.first;
   window.there += turn.pose ? 1 : 0;

@@ -9,13 +9,13 @@ namespace sg::solve {
 
 struct Leaving {
   struct Turn {  // as it was before it
-    std::size_t variables, rays;
+    std::size_t variables, images;
     Index first;
     bool pose;     // leaves
     double freed;  // of EC_BT, as it is thought
   };
   std::vector<Index> variables;
-  std::vector<Index> rays;  // rows that are forgotten
+  std::vector<Index> images;  // rows that are forgotten
   std::vector<Turn> turn;
 
   Index turns() const { return static_cast<Index>(turn.size()); }

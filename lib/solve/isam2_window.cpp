@@ -207,7 +207,7 @@ void carry_out(Isam2Window& window, const Entering& entering, const CliqueTree& 
                const Leaving& leaving, Isam2Report& report) {
   Isam2& isam = window.replay.isam;
   redo_and_solve(isam, entering.variables, entering.rows, plan, report);
-  for (Index r : leaving.rays) {
+  for (Index r : leaving.images) {
     isam.forgotten[r] = false;
     let_row_go(isam, r);
   }

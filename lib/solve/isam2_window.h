@@ -14,11 +14,11 @@
 // A landmark leaves with the last pose that saw it, or before, where the newest pose with all of its landmarks is above
 // the budget.
 //
-// Rays. A prior keeps a landmark's linearization point. Of one that is seen along rays (pixels, bearings) that is a guess as
-// long as they are nearly parallel, and what sees it from elsewhere is pulled there: in windows of 5 to 20 poses the error
-// grew to tens of metres, or pivots vanished. So no prior reaches such a landmark. It leaves with the first pose that does so
-// when its track has ended, by all rays that are there; before that the rays of what leaves are forgotten, as long as min_obs
-// are left. (Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization, 2015, section 3.5.)
+// Images. A prior keeps a landmark's linearization point. Of one that is seen by an image of it (pixels, a disparity, a
+// bearing) that is a guess as long as the rays are nearly parallel, and what sees it from elsewhere is pulled there: in windows
+// of 5 to 20 poses the error grew to tens of metres, or pivots vanished. So no prior reaches such a landmark. It leaves with
+// the first pose that does so when its track has ended, by all images that are there; before that those of what leaves are
+// forgotten, as long as min_obs are left. (Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization, 2015, section 3.5.)
 //
 // Edges that name what has left are dropped and counted. A landmark
 // enters when min_obs observations from poses that are there have come together: where the window is shorter than that

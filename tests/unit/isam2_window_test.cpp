@@ -193,7 +193,7 @@ TEST_CASE("gain is by how much variances fall, and what giving back would lose",
   }
 }
 
-TEST_CASE("landmarks seen along rays leave with their tracks, and no prior reaches them before",
+TEST_CASE("landmarks seen by bearings leave with their tracks, and no prior reaches them before",
           "[isam2]") {
   Random random(8);
   int forgotten = 0, left = 0;

@@ -211,9 +211,9 @@ corridor() {
     sg-isam2 --batch --lag 3 "$TESTDATA/walk.g2o"
 }
 
-@test "a window over pixels or bearings, of any lag, is no worse than twice its odometry alone" {
+@test "a window over pixels, disparities or bearings, of any lag, is no worse than twice its odometry alone" {
   rms() { awk '{sum += $1 * $1} END {print sqrt(sum / NR)}'; }
-  for sensor in "" "--dim 2 --sensor bearing"; do
+  for sensor in "" "--sensor disparity" "--dim 2 --sensor bearing"; do
     sg-gen sine -n 120 $sensor --truth truth.g2o -o in.g2o
     alone=$(sg-isam2 -q --lag 3 --min-obs 1000 --truth truth.g2o -f error --no-header in.g2o | rms)
     for lag in 2 3 5 8 12 20; do
