@@ -69,13 +69,19 @@ void take_out(Isam2& isam) {
 }
 
 // The new factors' variables go last, where the next ones will be close to the root.
-graph::Order order_top(Isam2& isam, std::span<const Index> new_rows) {
+graph::Order order_top(Isam2& isam, std::span<const Index> new_rows, Last last) {
   Isam2::Work& work = isam.work;
   order::OrderOptions options;
   options.budget = isam.options.order_budget;
+  const factor::Problem& problem = *isam.problem;
+  const auto goes_last = [&](Index j) {
+    return !isam.leaving[j] &&
+           (last == Last::all ||
+            problem.graph->role(problem.variables.variable_vertex[j]) == graph::Role::pose);
+  };
   for (Index r : new_rows) {
     for (Index j : pattern_of(isam).rows[r]) {
-      if (!isam.leaving[j]) options.last.push_back(work.local[j]);
+      if (goes_last(j)) options.last.push_back(work.local[j]);
     }
   }
   std::ranges::sort(options.last);
@@ -151,11 +157,11 @@ void take_variable_out(Isam2& isam, Index j) {
 }
 
 CliqueTree plan_top(Isam2& isam, std::span<const Index> new_variables,
-                    std::span<const Index> new_rows) {
+                    std::span<const Index> new_rows, Last last) {
   mark_all_if_many(isam);
   gather_top(isam, new_variables, new_rows);
   make_pattern(isam);
-  return clique_tree(isam.work.pattern, order_top(isam, new_rows), isam.options.relaxed_from);
+  return clique_tree(isam.work.pattern, order_top(isam, new_rows, last), isam.options.relaxed_from);
 }
 
 void redo_and_solve(Isam2& isam, std::span<const Index> new_variables,

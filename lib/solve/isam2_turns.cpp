@@ -161,7 +161,10 @@ CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Ind
   mark_leaving(window.replay.isam, leaving.variables);
   ++window.plans;
   const order::Stopwatch watch;
-  CliqueTree plan = plan_top(window.replay.isam, entering.variables, entering.rows);
+  // What is admitted pays for what comes by the order that has landmarks at hand.
+  const elim::Wide budget =
+      window.options.spend == Spend::measurements ? 0 : window.options.budget;
+  CliqueTree plan = plan_in_budget(window.replay.isam, entering, leaving.variables, budget);
   window.planning = watch.seconds();
   return plan;
 }
