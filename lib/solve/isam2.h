@@ -119,7 +119,7 @@ struct Isam2 {
     std::vector<Run> runs;
     std::vector<Index> edges, stack;
     std::vector<double> numbers, floors;
-    std::vector<double> rhs;  // zeros between calls
+    std::vector<double> rhs;
   } work;
 };
 

@@ -23,46 +23,52 @@ void path_to_root(const Isam2& isam, std::span<const Index> variables, std::vect
 
 MatrixXd projected_covariance(Isam2& isam, std::span<const Index> variables,
                               const MatrixXd& jacobian) {
-  const std::vector<Index>& at = isam.problem->step_at;
   const std::vector<int>& dim = pattern_of(isam).dim;
   const auto h = static_cast<int>(jacobian.rows());
   const int ld = round_up(h);
+  std::vector<Index>& path = isam.work.edges;
+  path_to_root(isam, variables, path);
+  // Right-hand sides by row: those of the path's frontal variables, which are all that it names, clique by clique.
+  std::vector<int>& row_at = isam.work.row_at;
+  int rows = 0, most = 0;
+  for (Index c : path) {
+    for (Index j : frontals_of(isam.tree, isam.tree.cliques[c])) {
+      row_at[j] = rows;
+      rows += dim[j];
+    }
+    most = std::max(most, isam.tree.cliques[c].s);
+  }
   std::vector<double>& numbers = isam.work.rhs;
-  numbers.resize(std::max(numbers.size(), static_cast<std::size_t>(at.back()) * ld + lane), 0.0);
+  numbers.assign(static_cast<std::size_t>(rows + most + h + 1) * ld, 0.0);  // a row of slack
+  double* const x = numbers.data();
+  double* const above = x + static_cast<std::ptrdiff_t>(rows) * ld;
+  double* const minus = above + static_cast<std::ptrdiff_t>(most) * ld;
   const auto rows_of_variable = [&](Index j) {
-    return Eigen::Map<Rows>(numbers.data() + static_cast<std::size_t>(at[j]) * ld, dim[j], ld);
+    return Eigen::Map<Rows>(x + static_cast<std::ptrdiff_t>(row_at[j]) * ld, dim[j], ld);
   };
   Eigen::Index column = 0;
   for (Index j : variables) {
     rows_of_variable(j).leftCols(h) += jacobian.middleCols(column, dim[j]).transpose();
     column += dim[j];
   }
-  Rows minus = Rows::Zero(h + 1, ld);  // a row of slack
-  Rows u, below;
-  std::vector<Index>& path = isam.work.edges;
-  path_to_root(isam, variables, path);
   for (Index c : path) {
     const Isam2Clique& clique = isam.tree.cliques[c];
     const Front front = front_of(isam.tree, clique);
-    if (u.rows() < front.f + 1) u.resize(front.f + 1, ld);
-    if (below.rows() < front.s() + 1) below.resize(front.s() + 1, ld);
+    double* const u = rows_of_variable(frontals_of(isam.tree, clique).front()).data();
+    kernels().solve_lower(front.l, front.ld_l(), u, ld, 0, front.f, h);
+    kernels().subtract_product(minus, ld, u, ld, u, ld, h, h, front.f);
+    kernels().negative_product(above, ld, u, ld, front.l + front.f, front.ld_l(), h, front.s(),
+                               front.f);
     Eigen::Index row = 0;
-    for (Index j : frontals_of(isam.tree, clique)) {
-      u.middleRows(row, dim[j]) = rows_of_variable(j);
-      rows_of_variable(j).setZero();
-      row += dim[j];
-    }
-    kernels().solve_lower(front.l, front.ld_l(), u.data(), ld, 0, front.f, h);
-    kernels().subtract_product(minus.data(), ld, u.data(), ld, u.data(), ld, h, h, front.f);
-    kernels().negative_product(below.data(), ld, u.data(), ld, front.l + front.f, front.ld_l(), h,
-                               front.s(), front.f);
-    row = 0;
     for (Index j : separators_of(isam.tree, clique)) {
-      rows_of_variable(j) += below.middleRows(row, dim[j]);
+      rows_of_variable(j) += Eigen::Map<const Rows>(above, front.s(), ld).middleRows(row, dim[j]);
       row += dim[j];
     }
   }
-  return -minus.topLeftCorner(h, h);
+  for (Index c : path) {
+    for (Index j : frontals_of(isam.tree, isam.tree.cliques[c])) row_at[j] = -1;
+  }
+  return -Eigen::Map<const Rows>(minus, h, ld).leftCols(h);
 }
 
 MatrixXd covariance(Isam2& isam, Index j) {

@@ -69,19 +69,19 @@ Next next_to_leave(const Isam2Window& window, Index k) {
   return next;
 }
 
-// What it would free of EC_BT, by the tree as it is.
-double freed_by_turn(const Isam2Window& window, Index k) {
+// What these free of EC_BT, by the tree as it is.
+double freed_by_all(const Isam2& isam, std::span<const Index> variables) {
   double sum = 0;
-  for (const Index j : next_to_leave(window, k).variables) sum += freed_by(window.replay.isam, j);
+  for (const Index j : variables) sum += freed_by(isam, j);
   return sum;
 }
 
 void add_turn(Isam2Window& window, Index k, Leaving& leaving) {
   Isam2& isam = window.replay.isam;
   const bool pose = window.first < k;
-  leaving.turn.push_back({leaving.variables.size(), leaving.images.size(), window.first, pose,
-                          freed_by_turn(window, k)});
   const Next next = next_to_leave(window, k);
+  leaving.turn.push_back({leaving.variables.size(), leaving.images.size(), window.first, pose,
+                          freed_by_all(isam, next.variables)});
   for (const Index j : next.variables) {
     window.left[window.replay.problem->variables.variable_vertex[j]] = true;
     isam.leaving[j] = true;
@@ -125,8 +125,9 @@ Index fewer_turns(const Leaving& leaving, double room) {
 
 // How many more would free so much; at least one. Those beyond the first are taken to free as much as that.
 Index more_turns(const Isam2Window& window, Index k, const Leaving& leaving, double excess) {
-  const double next = window.first < k || leaving.turn.empty() ? freed_by_turn(window, k)
-                                                               : leaving.turn.back().freed;
+  const double next = window.first < k || leaving.turn.empty()
+                          ? freed_by_all(window.replay.isam, next_to_leave(window, k).variables)
+                          : leaving.turn.back().freed;
   return next > 0 ? static_cast<Index>(std::min(1e6, std::ceil(excess / next))) : 1;
 }
 
@@ -162,8 +163,7 @@ CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Ind
   ++window.plans;
   const order::Stopwatch watch;
   // What is admitted pays for what comes by the order that has landmarks at hand.
-  const elim::Wide budget =
-      window.options.spend == Spend::measurements ? 0 : window.options.budget;
+  const elim::Wide budget = window.options.spend == Spend::measurements ? 0 : window.options.budget;
   CliqueTree plan = plan_in_budget(window.replay.isam, entering, leaving.variables, budget);
   window.planning = watch.seconds();
   return plan;
