@@ -83,7 +83,7 @@ Dense dense(const factor::Problem& problem, const factor::LinearSystem& system) 
   return sum;
 }
 
-solve::BatchResult run(Setup& setup, solve::BatchOptions options,
+solve::BatchResult run(Setup& setup, const solve::BatchOptions& options,
                        std::string_view backend = "tree") {
   const auto solver = solve::find_backend(backend).make(setup.system, setup.order, 1);
   return solve::optimize(setup.problem, setup.system, solver, options, setup.values);
@@ -205,7 +205,7 @@ std::string chain(int poses, int first = 0) {
   return text;
 }
 
-std::string failure(const std::string& text, solve::BatchOptions options = {}) {
+std::string failure(const std::string& text, const solve::BatchOptions& options = {}) {
   Random random(1);
   const Graph graph = graph_of(text);
   Setup setup(random, graph);

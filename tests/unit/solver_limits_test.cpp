@@ -34,7 +34,7 @@ std::string failure(const auto& work) {
 std::string failure_of_all(const std::string& text) {
   const sg::Graph graph = graph_of(text);
   const sg::factor::Problem problem = sg::factor::make_problem(graph);
-  const std::string incremental = failure([&] {
+  std::string incremental = failure([&] {
     auto replay = sg::solve::make_isam2_replay(problem, {}, 1, !graph.edges_only);
     for (sg::Index k = 0; k < replay.steps.steps; ++k) sg::solve::replay_step(replay, k);
   });
