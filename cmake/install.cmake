@@ -11,7 +11,11 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Of both shells: bash looks by the command's name.
 if(SGTOOLS_COMMANDS)
-  get_property(names GLOBAL PROPERTY SGTOOLS_COMMANDS)
+  get_property(targets GLOBAL PROPERTY SGTOOLS_COMMAND_TARGETS)
+  foreach(target ${targets})
+    get_target_property(name ${target} OUTPUT_NAME)
+    list(APPEND names ${name})
+  endforeach()
   string(REPLACE ";" " " commands "${names}")
   configure_file(cmd/completion/sgtools.bash sgtools.bash @ONLY)
   foreach(command ${names})

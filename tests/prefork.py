@@ -8,6 +8,7 @@ import struct
 import subprocess
 import threading
 
+TIMEOUT = 60  # seconds of a call
 LIBRARY = os.environ.get("PREFORK_LIBRARY", "")
 own = threading.local()  # what a thread has loaded
 
@@ -30,17 +31,17 @@ class Loaded:
         if len(answer) != 4: raise EOFError
         return struct.unpack("i", answer)[0]
 
-    def call(self, words, streams, flags, timeout):
+    def call(self, words, streams, flags):
         text = bytes([flags]) + b"".join(os.fsencode(word) + b"\0" for word in words)
         socket.send_fds(self.socket, [text], streams)
         try:
             process = self.number()
-            self.socket.settimeout(timeout)
+            self.socket.settimeout(TIMEOUT)
             return self.number()
         except TimeoutError:
             os.kill(process, signal.SIGKILL)
             del own.loaded[self.key]
-            raise subprocess.TimeoutExpired(words, timeout) from None
+            raise subprocess.TimeoutExpired(words, TIMEOUT) from None
         except (EOFError, ConnectionError):  # it has ended itself
             del own.loaded[self.key]
             return self.process.wait()
@@ -60,31 +61,31 @@ def contents(descriptor):
         return file.read()
 
 
-def call(path, words, folder, stdin=subprocess.DEVNULL, stdout=None, here=False, timeout=60):
+def call(path, words, folder, stdin=subprocess.DEVNULL, stdout=None, here=False):
     """How the command at `path` ends. A stream is a descriptor or "closed"; what goes to no stdout is in the result.
 
     `here`: no process of its own, for what is wrong and has no more to do than to say so."""
     kept = stdout is None
     if LIBRARY == "":
-        return plainly(path, words, folder, stdin, stdout, timeout)
+        return plainly(path, words, folder, stdin, stdout)
     out = os.memfd_create("out") if kept else stdout
     said = os.memfd_create("said")
     nothing = os.open(os.devnull, os.O_RDONLY)
     streams = [stream for stream in (nothing if stdin == subprocess.DEVNULL else stdin, out, said) if stream != "closed"]
     flags = (stdin == "closed") + 2 * (stdout == "closed") + 8 * here
     try:
-        status = loaded(path, folder).call([os.path.basename(path), *words], streams, flags, timeout)
+        status = loaded(path, folder).call([os.path.basename(path), *words], streams, flags)
     finally:
         os.close(nothing)
         text = contents(out) if kept else b"", contents(said)
     return Done(status, *text)
 
 
-def plainly(path, words, folder, stdin, stdout, timeout):
+def plainly(path, words, folder, stdin, stdout):
     argv = [path, *words]
     if "closed" in (stdin, stdout):
         shell = 'exec "$@"' + (" <&-" if stdin == "closed" else "") + (" >&-" if stdout == "closed" else "")
         argv = ["sh", "-c", shell, "sh", *argv]
     done = subprocess.run(argv, stdin=subprocess.DEVNULL if stdin == "closed" else stdin,
-                          stdout=subprocess.PIPE if stdout in (None, "closed") else stdout, stderr=subprocess.PIPE, timeout=timeout, cwd=folder)
+                          stdout=subprocess.PIPE if stdout in (None, "closed") else stdout, stderr=subprocess.PIPE, timeout=TIMEOUT, cwd=folder)
     return Done(done.returncode, done.stdout or b"", done.stderr)

@@ -22,65 +22,59 @@ extern "C" void __tsan_release(void* at);
 
 namespace sg::parallel {
 
+// What a thread wrote before it released a place is known to who acquires that place afterwards.
+#ifdef SGTOOLS_THREAD_SANITIZER
+inline void release(char& place) {
+  __tsan_release(&place);
+}
+inline void acquire(char& place) {
+  __tsan_acquire(&place);
+}
+#else
+inline void release(char& /*place*/) {}
+inline void acquire(char& /*place*/) {}
+#endif
+
 // From who calls to those that work, and back.
 struct HandOver {
-#ifdef SGTOOLS_THREAD_SANITIZER
-  void give() const {
-    __tsan_release(&given);
-  }
-  void take() const {
-    __tsan_acquire(&given);
-  }
-  void done() const {
-    __tsan_release(&back);
-  }
-  void take_back() const {
-    __tsan_acquire(&back);
-  }
-  mutable char given = 0, back = 0;
-#else
-  void give() const {}
-  void take() const {}
-  void done() const {}
-  void take_back() const {}
-#endif
+  char given = 0, back = 0;
 };
 
 // A piece of work, taken and done.
 template <class Work>
-void take(const HandOver& hand_over, const Work& work) {
-  hand_over.take();
+void take(HandOver& hand_over, const Work& work) {
+  acquire(hand_over.given);
   work();
-  hand_over.done();
+  release(hand_over.back);
 }
 
 // Calls work(k) for 0 .. count - 1.
 template <class Number, class Work>
 void each(Number count, const Work& work) {
-  const HandOver hand_over;
-  hand_over.give();
+  HandOver hand_over;
+  release(hand_over.given);
   tbb::parallel_for(Number{0}, count, [&](Number k) { take(hand_over, [&] { work(k); }); });
-  hand_over.take_back();
+  acquire(hand_over.back);
 }
 
 // Calls work(first, last) for parts of 0 .. count, each of at most about `grain`.
 template <class Number, class Work>
 void each_part(Number count, Number grain, const Work& work) {
   using Range = tbb::blocked_range<Number>;
-  const HandOver hand_over;
-  hand_over.give();
+  HandOver hand_over;
+  release(hand_over.given);
   tbb::parallel_for(Range(0, count, grain), [&](const Range& part) {
     take(hand_over, [&] { work(part.begin(), part.end()); });
   });
-  hand_over.take_back();
+  acquire(hand_over.back);
 }
 
 template <class First, class Second>
 void both(const First& first, const Second& second) {
-  const HandOver hand_over;
-  hand_over.give();
+  HandOver hand_over;
+  release(hand_over.given);
   tbb::parallel_invoke([&] { take(hand_over, first); }, [&] { take(hand_over, second); });
-  hand_over.take_back();
+  acquire(hand_over.back);
 }
 
 // Pieces of work that are begun one by one.
@@ -88,12 +82,12 @@ class Tasks {
  public:
   template <class Work>
   void begin(Work work) {
-    hand_over_.give();
+    release(hand_over_.given);
     group_.run([this, work = std::move(work)] { take(hand_over_, work); });
   }
   void wait() {
     group_.wait();
-    hand_over_.take_back();
+    acquire(hand_over_.back);
   }
 
  private:

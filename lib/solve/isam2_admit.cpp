@@ -113,8 +113,7 @@ Measurement measurement(const Isam2& isam, std::span<const Index> rows, Index va
 
 double gain(Isam2& isam, const Measurement& m, std::span<const Index> place, bool given_back) {
   const MatrixXd& J = m.jacobian;
-  const MatrixXd S =
-      projected_covariance(isam, m.variables, MatrixXd::Identity(J.cols(), J.cols()));
+  const MatrixXd S = covariance(isam, m.variables);
   const MatrixXd seen = J * S;
   MatrixXd inner = seen * J.transpose();
   if (given_back) inner = -inner;

@@ -21,10 +21,10 @@ void path_to_root(const Isam2& isam, std::span<const Index> variables, std::vect
   }
 }
 
-MatrixXd projected_covariance(Isam2& isam, std::span<const Index> variables,
-                              const MatrixXd& jacobian) {
+MatrixXd covariance(Isam2& isam, std::span<const Index> variables) {
   const std::vector<int>& dim = pattern_of(isam).dim;
-  const auto h = static_cast<int>(jacobian.rows());
+  int h = 0;
+  for (Index j : variables) h += dim[j];
   const int ld = round_up(h);
   std::vector<Index>& path = isam.work.edges;
   path_to_root(isam, variables, path);
@@ -48,7 +48,7 @@ MatrixXd projected_covariance(Isam2& isam, std::span<const Index> variables,
   };
   Eigen::Index column = 0;
   for (Index j : variables) {
-    rows_of_variable(j).leftCols(h) += jacobian.middleCols(column, dim[j]).transpose();
+    rows_of_variable(j).middleCols(column, dim[j]).setIdentity();
     column += dim[j];
   }
   for (Index c : path) {
@@ -72,8 +72,7 @@ MatrixXd projected_covariance(Isam2& isam, std::span<const Index> variables,
 }
 
 MatrixXd covariance(Isam2& isam, Index j) {
-  const int dim = pattern_of(isam).dim[j];
-  return projected_covariance(isam, std::span(&j, 1), MatrixXd::Identity(dim, dim));
+  return covariance(isam, std::span(&j, 1));
 }
 
 }  // namespace sg::solve

@@ -283,15 +283,6 @@ elim::Wide ec_after(const Isam2& isam, const CliqueTree& plan, std::span<const I
   return ec;
 }
 
-CliqueTree plan_in_budget(Isam2& isam, const Entering& entering, std::span<const Index> leaving,
-                          elim::Wide budget) {
-  CliqueTree plan = plan_top(isam, entering.variables, entering.rows);
-  const elim::Wide ec = ec_after(isam, plan, leaving);
-  if (budget == 0 || ec <= budget) return plan;
-  CliqueTree other = plan_top(isam, entering.variables, entering.rows, Last::poses);
-  return ec_after(isam, other, leaving) < ec ? other : plan;
-}
-
 void take_leave(Isam2& isam, std::span<const Index> leaving, bool keep, Isam2Report& report) {
   for (Index j : leaving) {
     const Index c = isam.tree.variable_clique[j];

@@ -26,7 +26,6 @@
 
 #include <string_view>
 
-#include "lib/solve/isam2_replay.h"
 #include "lib/solve/isam2_steps.h"
 
 namespace sg::solve {
@@ -46,11 +45,6 @@ void mark_leaving(Isam2& isam, std::span<const Index> leaving);
 
 // EC_BT when the plan has been carried out and `leaving` have left.
 elim::Wide ec_after(const Isam2& isam, const CliqueTree& plan, std::span<const Index> leaving);
-
-// plan_top, by which EC_BT will be at most the budget (0: any) if an order is found for that: with landmarks at hand, else
-// without.
-CliqueTree plan_in_budget(Isam2& isam, const Entering& entering, std::span<const Index> leaving,
-                          elim::Wide budget);
 
 // After solve_down: the variables leave, with the rows that reach them. Their estimates stay. `keep`: their conditionals
 // are kept, for smooth_past. Reports what it eliminated, and undetermined variables.

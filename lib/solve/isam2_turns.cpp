@@ -140,6 +140,17 @@ Index most_turns(const Isam2Window& window, Index k, const Leaving& leaving) {
   return turns;
 }
 
+// With landmarks at hand; where EC_BT would be above the budget (0: none), without, if that costs less.
+CliqueTree plan_in_budget(Isam2& isam, const Entering& entering, std::span<const Index> leaving,
+                          elim::Wide budget) {
+  CliqueTree plan = plan_top(isam, entering.variables, entering.rows);
+  if (budget == 0) return plan;
+  const elim::Wide ec = ec_after(isam, plan, leaving);
+  if (ec <= budget) return plan;
+  CliqueTree other = plan_top(isam, entering.variables, entering.rows, Last::poses);
+  return ec_after(isam, other, leaving) < ec ? other : plan;
+}
+
 bool is_too_old(const Isam2Window& window, Index pose, Index k) {
   const WindowOptions& options = window.options;
   return (options.lag > 0 && pose <= k - options.lag) ||

@@ -18,11 +18,11 @@
 // bearing) that is a guess as long as the rays are nearly parallel, and what sees it from elsewhere is pulled there: in windows
 // of 5 to 20 poses the error grew to tens of metres, or pivots vanished. So no prior reaches such a landmark. It leaves with
 // the first pose that does so when its track has ended, by all images that are there; before that those of what leaves are
-// forgotten, as long as min_obs are left. (Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization, 2015, section 3.5.)
+// forgotten, as long as min_obs are left. (As Leutenegger et al. do, Keyframe-based visual-inertial odometry using nonlinear
+// optimization, Int. J. Robotics Research 34, 2015.)
 //
-// Edges that name what has left are dropped and counted. A landmark
-// enters when min_obs observations from poses that are there have come together: where the window is shorter than that
-// takes, it waits. Constants never leave.
+// Edges that name what has left are dropped and counted. A landmark enters when min_obs observations from poses that are
+// there have come together: where the window is shorter than that takes, it waits. Constants never leave.
 #pragma once
 
 #include <limits>
