@@ -21,7 +21,7 @@ deb_packages   := dpkg-dev fakeroot lintian
 
 .DEFAULT_GOAL := build
 .NOTPARALLEL:  # packages are installed one list after the other
-.PHONY: help deps build demo check faults python mutants install uninstall deb bare bench fuzz tsan paper orderings outliers front regimes budget starts marginalize sweep scale lint format clean picture
+.PHONY: help deps build benchmarks demo check faults python mutants install uninstall deb bare bench fuzz tsan paper orderings outliers front regimes budget starts marginalize sweep scale speed lint format clean picture
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -90,10 +90,15 @@ bare: deb ## try these packages on a bare Debian 12 (root, debootstrap, a networ
 picture: build ## draw the picture of the README
 	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -f experiments/demo/Makefile picture
 
-bench: build/packages/build build/packages/bench ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
+benchmarks: build/packages/build build/packages/bench build/packages/blas
 	@$(call configure,$(commands_alone) -DSGTOOLS_BENCH=ON)
 	@$(call build,benchmarks)
-	@PATH="$(BIN):$$PATH" $(BIN)/benchmarks $(BENCH_OPTIONS)
+
+bench: benchmarks ## run the benchmarks (BENCH_OPTIONS=--benchmark_filter=...)
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/benchmarks $(BENCH_OPTIONS)
+
+speed: benchmarks ## the same as a page: what was wanted, and how near the machine's limits, into out/speed
+	@PATH="$(BIN):$$PATH" $(MAKE) --no-print-directory -C experiments/speed OUT=$(CURDIR)/out/speed
 
 fuzz: PRESET := fuzz
 fuzz: build/packages/build build/packages/clang ## fuzz every reader, and the calls of every command, for 60 seconds each under the sanitizers (FUZZ_SECONDS=60)

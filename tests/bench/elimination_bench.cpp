@@ -1,7 +1,11 @@
-// What planning, eliminating and updating cost beside each other: every row is a ratio of times measured in the same run.
-//   plan/GRAPH      plan_part: planning an elimination by one elimination
-//   threads/GRAPH   speedup: eliminations on one thread by those on two
-//   replay/sine     update_by_batch: iSAM2's updates by eliminations of all that is there, over a whole replay
+// What planning, eliminating, iterating and updating cost, in COLAMD's order: ratios are of times measured in turns in the same run.
+//   plan/GRAPH       plan_part: planning an elimination by one elimination
+//   eliminate/GRAPH  flops: operations a second on the cliques of the tree; bytes_per_second: of the system and the factor,
+//                    each once; by_cholmod: eliminations by CHOLMOD by ours
+//   iterate/GRAPH    by_cholmod: Gauss-Newton iterations with CHOLMOD by those with ours, chi-square and linearization (the
+//                    same in both) included; linearize_part: what these two take of ours
+//   threads/GRAPH    speedup: eliminations on one thread by those on two
+//   replay/sine      update_by_batch: iSAM2's updates by eliminations of all that is there, over a whole replay
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -12,9 +16,11 @@
 #include "lib/order/order.h"
 #include "lib/solve/eliminate.h"
 #include "lib/solve/isam2_replay.h"
+#include "lib/solve/linear_solver.h"
 #include "lib/solve/snapshot.h"
 #include "lib/world/grid3d.h"
 #include "lib/world/sine.h"
+#include "tests/bench/operations.h"
 #include "tests/bench/worlds.h"
 
 using namespace sg;
@@ -59,9 +65,62 @@ void plan(benchmark::State& state, const Case& made) {
   state.counters["plan_part"] = planning / eliminating;
 }
 
+// Of eliminating every clique of the Bayes tree; what relaxed fronts add to it is not counted.
+double operations(const solve::CliqueTree& tree) {
+  double sum = 0;
+  for (Index c = 0; c < tree.cliques(); ++c)
+    sum += bench::operations(tree.frontal_dim[c], tree.frontal_dim[c] + tree.separator_dim[c] + 1);
+  return sum;
+}
+
+void eliminate(benchmark::State& state, const Case& made) {
+  auto ours = solve::plan_elimination(made.system, made.order);
+  const auto cholmod = solve::cholmod_solver(made.system, made.order, 1);
+  solve::eliminate(ours, made.system);  // as in plan; CHOLMOD's factor has its memory from analysis
+  double alone = 0, others = 0;
+  for (auto _ : state) {
+    alone += seconds([&] { solve::eliminate(ours, made.system); });
+    others += seconds([&] { cholmod.eliminate(made.system, {}); });
+  }
+  const auto eliminations = static_cast<double>(state.iterations());
+  const double numbers = static_cast<double>(made.system.numbers.size()) +
+                         static_cast<double>(ours.conditionals.size());
+  const auto exact = solve::clique_tree(*made.system.pattern, made.order, solve::never);
+  state.counters["flops"] = eliminations * operations(exact) / alone;
+  state.counters["bytes_per_second"] = eliminations * numbers * sizeof(double) / alone;
+  state.counters["by_cholmod"] = others / alone;
+}
+
+void iterate(benchmark::State& state, const Case& made) {
+  const auto ours = solve::find_backend("tree").make(made.system, made.order, 1);
+  const auto cholmod = solve::cholmod_solver(made.system, made.order, 1);
+  const factor::Values values = factor::start_values(made.problem);
+  factor::LinearSystem system = made.system;
+  std::vector<double> step;
+  double linearizing = 0, alone = 0, others = 0;
+  const auto solved = [&](const solve::LinearSolver& solver) {
+    return seconds([&] {
+      solver.eliminate(system, {});
+      solver.back_substitute(step);
+    });
+  };
+  solved(ours);
+  for (auto _ : state) {
+    linearizing += seconds([&] {
+      factor::linearize(made.problem, values, {}, system);
+      benchmark::DoNotOptimize(factor::chi2(made.problem, values));
+    });
+    alone += solved(ours);
+    others += solved(cholmod);
+  }
+  state.counters["by_cholmod"] = (linearizing + others) / (linearizing + alone);
+  state.counters["linearize_part"] = linearizing / (linearizing + alone);
+}
+
 void threads(benchmark::State& state, const Case& made) {
   auto one = solve::plan_elimination(made.system, made.order, 1);
   auto two = solve::plan_elimination(made.system, made.order, 2);
+  for (auto* const each : {&one, &two}) solve::eliminate(*each, made.system);  // as in plan
   double alone = 0, both = 0;
   for (auto _ : state) {
     alone += seconds([&] { solve::eliminate(one, made.system); });
@@ -101,6 +160,8 @@ void compare(const std::string& name, const std::function<Graph()>& make, bool l
         ->UseRealTime();
   };
   add("plan", plan);
+  add("eliminate", eliminate);
+  add("iterate", iterate);
   if (large) add("threads", threads);
 }
 

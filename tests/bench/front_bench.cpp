@@ -1,32 +1,19 @@
 // Dense partial Cholesky against OpenBLAS, on one thread: a front of f frontal and s separator scalars by our kernels,
 // and the same numbers of operations a second by its dpotrf on a matrix of as many rows. `flops` of the two is the ratio.
-// OpenBLAS is loaded when the benchmark runs, so that nothing else here is linked to it.
 #include <benchmark/benchmark.h>
-#include <dlfcn.h>
 
 #include <string>
 #include <vector>
 
 #include "lib/solve/factorize.h"
+#include "tests/bench/openblas.h"
+#include "tests/bench/operations.h"
 
 using namespace sg;
 
 namespace {
 
 using Dpotrf = void (*)(const char*, const int*, double*, const int*, int*);
-
-Dpotrf openblas_dpotrf() {
-  void* const library = dlopen("libopenblas.so.0", RTLD_NOW | RTLD_LOCAL);
-  if (!library) return nullptr;
-  using Set = void (*)(int);
-  reinterpret_cast<Set>(dlsym(library, "openblas_set_num_threads"))(1);
-  return reinterpret_cast<Dpotrf>(dlsym(library, "dpotrf_"));
-}
-
-// Operations of eliminating f of n columns.
-double operations(double f, double n) {
-  return f * (n * n - n * f + f * f / 3);
-}
 
 // Positive definite, its lower triangle by column of any leading dimension.
 double entry(int i, int j, int n) {
@@ -53,7 +40,7 @@ void front(benchmark::State& state) {
     state.ResumeTiming();
     benchmark::DoNotOptimize(solve::factorize(kernel, front, floor.data(), work.data(), 1));
   }
-  state.counters["flops"] = benchmark::Counter(operations(front.f, front.n),
+  state.counters["flops"] = benchmark::Counter(bench::operations(front.f, front.n),
                                                benchmark::Counter::kIsIterationInvariantRate);
 }
 
@@ -70,11 +57,11 @@ void dpotrf(benchmark::State& state, Dpotrf factorize) {
     factorize("L", &n, matrix.data(), &n, &info);
   }
   state.counters["flops"] =
-      benchmark::Counter(operations(n, n), benchmark::Counter::kIsIterationInvariantRate);
+      benchmark::Counter(bench::operations(n, n), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 const bool registered = [] {
-  const Dpotrf openblas = openblas_dpotrf();
+  const auto openblas = bench::openblas<Dpotrf>("dpotrf_");
   for (const auto& [f, s] : {std::pair{100, 500}, {300, 600}, {600, 1500}, {1500, 0}}) {
     const std::string name = std::to_string(f) + "+" + std::to_string(s);
     benchmark::RegisterBenchmark(("front/" + name).c_str(), front)->Args({f, s});
