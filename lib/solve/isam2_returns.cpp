@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sg::solve {
 namespace {
 
-constexpr double kept = 0.998;  // of a count, a step later
+constexpr double kept = 0.998;         // of a count, a step later
+constexpr double class_middle = 1.19;  // times its first age
+// As if an edge had named what is seven times as old as the median: few edges make no steep tail.
+constexpr double doubt = 2;
 
 int class_of(Index age) {
   return std::min(Returns::classes - 1,
@@ -36,6 +40,21 @@ double expected_edges(const Returns& returns, Index age) {
     sum += std::clamp(share, 0.0, 1.0) * returns.edges[k];
   }
   return returns.steps > 0 ? sum / returns.steps : 0;
+}
+
+Tail tail_of(const Returns& returns) {
+  const double all = std::accumulate(returns.edges.begin(), returns.edges.end(), 0.0);
+  if (all == 0) return {};
+  double upper = 0, logs = 0;
+  int median = Returns::classes;
+  while (upper < all / 2) upper += returns.edges[--median];
+  for (int k = median; k < Returns::classes; ++k)
+    logs += returns.edges[k] * std::log(class_middle * first_age(k) / first_age(median));
+  return {upper / returns.steps, first_age(median), upper / (logs + doubt)};
+}
+
+double expected_edges(const Tail& tail, Index age) {
+  return tail.edges * std::pow(std::max(1.0, age / tail.from), -tail.exponent);
 }
 
 }  // namespace sg::solve

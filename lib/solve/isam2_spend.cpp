@@ -13,6 +13,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr Index least_age = 3;
 // Of a pose's observations: so few edges that will name it do not count.
 constexpr double few_returns = 0.1;
+// And so few do not count, whatever the pose observes.
+constexpr double no_return = 0.001;
+// Steps until it is tried again to let go only what nothing returns to, where that was not enough: it takes a plan.
+constexpr Index pause = 8;
 // Where poses are composed, so much more than is needed: it takes the way to the root apart.
 constexpr double slack = 0.02;
 
@@ -33,6 +37,27 @@ bool observations_outweigh(const Isam2Window& window, Index k) {
     observations += is_observation(replay, r) ? 1 : 0;
   return window.keyframes.stands_for[oldest] * expected_edges(window.spending.returns, k - oldest) <
          few_returns * observations;
+}
+
+// How many of the oldest poses nothing is going to name.
+Index forsaken(const Isam2Window& window, Index k) {
+  const Returns& returns = window.spending.returns;
+  const Tail tail = tail_of(returns);
+  Index poses = 0;
+  for (Index pose = window.first; pose < k; ++pose) {
+    if (is_composed(window.keyframes, pose)) continue;
+    const double edges =
+        std::max(expected_edges(returns, k - pose), expected_edges(tail, k - pose));
+    if (window.keyframes.stands_for[pose] * edges > no_return) break;
+    ++poses;
+  }
+  return poses;
+}
+
+// How many turns are worth what is lost by them.
+Index turns_worth(const Isam2Window& window, Index k) {
+  if (window.options.spend != Spend::mixed || window.spending.rays) return 0;
+  return observations_outweigh(window, k) ? std::numeric_limits<Index>::max() : forsaken(window, k);
 }
 
 // By how much the sum of the variances of the positions that the pose stands for would rise: they hang on the way from its
@@ -120,9 +145,12 @@ CliqueTree plan_spending(Isam2Window& window, const Entering& entering, Index k,
                          Leaving& leaving) {
   Isam2& isam = window.replay.isam;
   const auto budget = static_cast<double>(window.options.budget);
-  if (window.options.spend == Spend::mixed && !window.spending.rays &&
-      observations_outweigh(window, k))
-    return plan_within(window, entering, k, least, leaving);
+  const Index most = turns_worth(window, k);
+  if (most > least && k >= window.spending.again) {
+    CliqueTree plan = plan_within(window, entering, k, least, leaving, most);
+    if (ec_after(isam, plan, leaving.variables) <= window.options.budget) return plan;
+    window.spending.again = k + pause;
+  }
   CliqueTree plan = plan_with(window, entering, k, least, leaving);
   // What poses are thought to free is what the tree as it is would lose; the edges that move fill it again. So ever more is
   // asked for, until there is room.
@@ -130,9 +158,9 @@ CliqueTree plan_spending(Isam2Window& window, const Entering& entering, Index k,
     const auto ec = static_cast<double>(ec_after(isam, plan, leaving.variables));
     if (ec <= budget) break;
     double excess = asked * (ec - budget) + slack * budget;
-    Index most = std::max<Index>(4, window.there / 16);
+    Index at_once = std::max<Index>(4, window.there / 16);
     bool any = false;
-    for (; excess > 0 && most > 0; --most) {
+    for (; excess > 0 && at_once > 0; --at_once) {
       const Index pose = cheapest_to_compose(window, k);
       if (pose < 0) break;
       const Index v = window.replay.poses.pose[pose];

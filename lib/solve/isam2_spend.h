@@ -9,8 +9,9 @@
 //                             is marginalized, and the observations that composing would have given back are kept.
 //
 // `keyframes` composes, and lets poses go by age where none can be composed. `mixed` lets the oldest go while what is
-// expected to come back to it (isam2_returns.h) is less than a tenth of what it observes, and composes otherwise, or where
-// landmarks are seen along rays: marginalized before they have been seen from afar, they would be linear in poor points.
+// expected to come back to it (isam2_returns.h) is less than a tenth of what it observes, or next to nothing, and that is
+// enough; it composes otherwise, or where landmarks are seen along rays: marginalized before they have been seen from afar,
+// they would be linear in poor points.
 #pragma once
 
 #include "lib/solve/isam2_turns.h"

@@ -171,7 +171,6 @@ CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Ind
   while (leaving.turns() < turns) add_turn(window, k, leaving);
   while (leaving.turns() > turns) last_stays(window, leaving);
   mark_leaving(window.replay.isam, leaving.variables);
-  ++window.plans;
   const order::Stopwatch watch;
   // What is admitted pays for what comes by the order that has landmarks at hand.
   const elim::Wide budget = window.options.spend == Spend::measurements ? 0 : window.options.budget;
@@ -181,10 +180,10 @@ CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Ind
 }
 
 CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, Index least,
-                       Leaving& leaving) {
+                       Leaving& leaving, Index most) {
   if (window.options.budget == 0) return plan_with(window, entering, k, least, leaving);
   const auto budget = static_cast<double>(window.options.budget);
-  const Index most = std::max(least, most_turns(window, k, leaving));
+  most = std::max(least, std::min(most, most_turns(window, k, leaving)));
   Index too_few = least - 1, enough = -1, turns = std::min(least + window.usual_turns, most);
   for (int tries = 1;; ++tries) {
     CliqueTree plan = plan_with(window, entering, k, turns, leaving);

@@ -2,6 +2,8 @@
 // what no later one has seen, and where the newest alone is left, its landmarks one by one.
 #pragma once
 
+#include <limits>
+
 #include "lib/solve/isam2_steps.h"
 #include "lib/solve/isam2_window.h"
 
@@ -29,8 +31,9 @@ CliqueTree plan_with(Isam2Window& window, const Entering& entering, Index k, Ind
                      Leaving& leaving);
 
 // About as few turns as bring the plan below the budget, `least` at least. The search starts from what the step before
-// took, and goes by what turns are thought to free: most of the time one plan or two are made.
+// took, and goes by what turns are thought to free: most of the time one plan or two are made. Where `most` turns are not
+// enough, the plan is that of so many, above the budget.
 CliqueTree plan_within(Isam2Window& window, const Entering& entering, Index k, Index least,
-                       Leaving& leaving);
+                       Leaving& leaving, Index most = std::numeric_limits<Index>::max());
 
 }  // namespace sg::solve

@@ -59,6 +59,7 @@ struct Spending {
   // By pose index: what composing it loses, when last looked at, infinite once it is; the step in which it could not be, -1.
   std::vector<double> losses;
   std::vector<Index> stays;
+  Index again = 0;  // the first step that tries again to let poses leave rather than compose them
   std::vector<std::pair<Index, Index>> ages;  // of this step's edges, what they name: edge and age
 };
 
@@ -80,7 +81,6 @@ struct Isam2Window {
   Keyframes keyframes;
   Spending spending;
   Index usual_turns = 0;  // beyond what is too old, of the last step
-  Index plans = 0;        // made so far
   double planning = 0;    // seconds of the last plan
   double choosing =
       0;  // seconds so far of pricing and choosing: of all but the plans that were carried out

@@ -195,3 +195,43 @@ TEST_CASE("what came back to an age is expected of it", "[isam2]") {
   CHECK(sg::solve::expected_edges(returns, 30) == Approx(2).epsilon(1e-3));
   CHECK(sg::solve::expected_edges(returns, 2000) == 0);
 }
+
+TEST_CASE("what nothing has come back to yet is told by the tail of the ages", "[isam2]") {
+  sg::solve::Returns laps, anywhere;
+  CHECK(sg::solve::expected_edges(sg::solve::tail_of(laps), 1000) == 1);
+  for (int k = 0; k < 400; ++k) {
+    for (auto* const returns : {&laps, &anywhere}) sg::solve::next_step(*returns);
+    sg::solve::note_return(laps, 48 + k % 5);
+    sg::solve::note_return(anywhere, 4 << k % 7);
+    if (k > 0) continue;  // one edge says little
+    CHECK(sg::solve::expected_edges(sg::solve::tail_of(laps), 600) > 0.1);
+  }
+  CHECK(sg::solve::expected_edges(laps, 600) == 0);
+  CHECK(sg::solve::expected_edges(sg::solve::tail_of(laps), 600) < 1e-5);
+  CHECK(sg::solve::expected_edges(anywhere, 600) == 0);
+  CHECK(sg::solve::expected_edges(sg::solve::tail_of(anywhere), 600) > 0.02);
+  CHECK(sg::solve::expected_edges(sg::solve::tail_of(anywhere), 1) < 1);
+}
+
+TEST_CASE("mixed lets poses leave that laps will not come back to, and composes none", "[isam2]") {
+  std::string lines;
+  for (int k = 1; k < 200; ++k) {
+    const auto relate = [&](int i, const std::string& z) {
+      lines += "EDGE_SE2 " + std::to_string(i) + " " + std::to_string(k) + " " + z +
+               " 100 0 0 100 0 400\n";
+    };
+    relate(k - 1, "1 0 0.785398");
+    if (k >= 8) relate(k - 8, "0 0 0");
+  }
+  const sg::Graph graph = graph_of(lines);
+  const sg::factor::Problem problem = sg::factor::make_problem(graph);
+  auto window = sg::solve::make_isam2_window(problem, exact(0), 1, false,
+                                             {.budget = 100'000, .spend = sg::solve::Spend::mixed});
+  for (sg::Index k = 0; k < window.replay.steps.steps; ++k) {
+    sg::solve::window_step(window, k);
+    CHECK(window.replay.isam.tree.ec_bt <= window.options.budget);
+  }
+  CHECK(window.keyframes.composed == 0);
+  CHECK(window.dropped == 0);
+  CHECK(window.first > 100);
+}
