@@ -86,7 +86,9 @@ void in_turn(std::size_t count, const Work& work) {
 std::vector<Found> methods_found(Search& search) {
   std::vector<const Ordering*> table;
   for (const Ordering& method : orderings()) {
-    if (method.compute != methods::best) table.push_back(&method);
+    // quick is one of two others.
+    if (method.compute != methods::best && method.compute != methods::quick)
+      table.push_back(&method);
   }
   table.push_back(&tuned);
   std::vector<Found> found(table.size());

@@ -17,6 +17,7 @@ graph::Order king(const graph::Pattern& pattern, const OrderOptions& options);
 graph::Order landmarks_first(const graph::Pattern& pattern, const OrderOptions& options);
 graph::Order metis(const graph::Pattern& pattern, const OrderOptions& options);
 graph::Order mmd(const graph::Pattern& pattern, const OrderOptions& options);
+graph::Order quick(const graph::Pattern& pattern, const OrderOptions& options);
 graph::Order random(const graph::Pattern& pattern, const OrderOptions& options);
 graph::Order rcm(const graph::Pattern& pattern, const OrderOptions& options);
 graph::Order scotch(const graph::Pattern& pattern, const OrderOptions& options);

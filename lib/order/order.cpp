@@ -20,6 +20,7 @@ constexpr Ordering table[] = {
     {"colamd", "CCOLAMD without dense-row removal, on the factors", methods::colamd},
     {"amd", "AMD, on the block graph", methods::amd},
     {"wmf", "weighted minimum fill, on the block graph", methods::wmf},
+    {"quick", "colamd, or wmf where that takes less time in total", methods::quick},
     {"metis", "nested dissection by METIS", methods::metis},
     {"scotch", "nested dissection by Scotch", methods::scotch},
     {"mmd", "multiple minimum degree (Boost.Graph)", methods::mmd},

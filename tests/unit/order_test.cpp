@@ -75,6 +75,38 @@ TEST_CASE("every ordering is a permutation, the same each time", "[order]") {
   }
 }
 
+TEST_CASE("quick is colamd where that is cheap, and the cheaper of it and wmf elsewhere",
+          "[order]") {
+  Random random(14);
+  int both = 0, colamd_alone = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Index n = 10 << trial % 5;
+    Pattern pattern;
+    pattern.dim.assign(n, 6);
+    for (Index r = 0; r < 4 * n; ++r) {
+      const Index i = draw(random, 0, n - 1);
+      pattern.rows.items.push_back(i);
+      pattern.rows.items.push_back((i + draw(random, 1, n - 1)) % n);
+      pattern.rows.close();
+    }
+    const auto quick = sg::order::elimination_order("quick", pattern),
+               colamd = sg::order::elimination_order("colamd", pattern),
+               wmf = sg::order::elimination_order("wmf", pattern);
+    const auto ec = [&](const Order& order) {
+      return sg::elim::to_double(sg::elim::elimination_complexity(pattern, order));
+    };
+    if (ec(colamd) < 3e3 * (n + 8 * n)) {
+      CHECK(quick == colamd);
+      ++colamd_alone;
+    } else {
+      CHECK(ec(quick) == std::min(ec(colamd), ec(wmf)));
+      ++both;
+    }
+  }
+  CHECK(both > 5);
+  CHECK(colamd_alone > 5);
+}
+
 TEST_CASE("variables constrained to the end stand at the end", "[order]") {
   Random random(2);
   for (int trial = 0; trial < 200; ++trial) {
