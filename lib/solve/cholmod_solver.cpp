@@ -16,14 +16,22 @@ struct State {
   sparse::CholmodFactor factor{nullptr, {nullptr}};
 };
 
-// Whether a pivot of the supernodal factor has vanished.
+// Whether a pivot has vanished.
 bool has_vanished_pivot(const State& state) {
   const cholmod_factor& L = *state.factor;
+  const auto* x = static_cast<const double*>(L.x);
+  const auto* scalar = static_cast<const int*>(L.Perm);
+  if (!L.is_super) {  // L D L', with D on the diagonal, or L L'
+    const auto* begin = static_cast<const int*>(L.p);
+    for (std::size_t k = 0; k < L.n; ++k) {
+      const double entry = x[begin[k]];
+      if (!((L.is_ll ? entry * entry : entry) > state.floors[scalar[k]])) return true;
+    }
+    return false;
+  }
   const auto* super = static_cast<const int*>(L.super);
   const auto* pi = static_cast<const int*>(L.pi);
   const auto* px = static_cast<const int*>(L.px);
-  const auto* x = static_cast<const double*>(L.x);
-  const auto* scalar = static_cast<const int*>(L.Perm);
   for (std::size_t s = 0; s < L.nsuper; ++s) {
     const int height = pi[s + 1] - pi[s];
     for (int k = super[s]; k < super[s + 1]; ++k) {
@@ -63,7 +71,6 @@ LinearSolver cholmod_solver(const factor::LinearSystem& system, const graph::Ord
     return {[](const factor::LinearSystem&, std::span<const double>) { return true; },
             [](std::vector<double>& step) { step.clear(); }};
   }
-  state->session.common.supernodal = CHOLMOD_SUPERNODAL;
   state->session.common.quick_return_if_not_posdef = 1;
   NormalEquations& normal = state->normal;
   cholmod_sparse H = sparse::view(normal.column_begin, normal.rows, normal.numbers);

@@ -21,7 +21,7 @@ LinearSolver tree_solver(const factor::LinearSystem& system, const graph::Order&
 
 constexpr std::array table{
     Backend{"tree", "multifrontal Cholesky on the Bayes tree", tree_solver},
-    Backend{"cholmod", "supernodal Cholesky by CHOLMOD", cholmod_solver},
+    Backend{"cholmod", "sparse Cholesky by CHOLMOD", cholmod_solver},
     Backend{"qr", "multifrontal QR by SPQR", qr_solver},
 };
 

@@ -32,7 +32,8 @@ std::span<const Backend> backends();
 const Backend& find_backend(std::string_view name);
 std::string backend_names();  // "a, b"
 
-// Supernodal Cholesky by CHOLMOD (Chen, Davis, Hager, Rajamanickam 2008) on the normal equations in this order.
+// Cholesky by CHOLMOD (Chen, Davis, Hager, Rajamanickam 2008) on the normal equations in this order: supernodal, or simplicial
+// where it finds that quicker.
 LinearSolver cholmod_solver(const factor::LinearSystem& system, const graph::Order& order,
                             int threads);
 
