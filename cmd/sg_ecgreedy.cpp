@@ -211,7 +211,7 @@ std::vector<prune::Move> moves_at(const cmd::Command& command, const Options& op
   std::vector<prune::Move> made(moves.begin(), moves.end());
   if (options.exchange)
     made = prune::exchanged(subject.choice, subject.evidence, greedy, std::move(made));
-  if (options.no_free) return made;
+  if (options.no_free || cmd::interrupted()) return made;
   return ecgreedy::with_free(subject.choice, subject.evidence, made, greedy);
 }
 

@@ -32,16 +32,21 @@ elim::Wide ec_after(const Choice& choice, std::span<const Move> moves,
 
 std::size_t moves_within(const Choice& choice, std::span<const Move> moves, elim::Wide ec,
                          const EcGreedyOptions& options, std::size_t least) {
-  std::size_t low = least, high = moves.size();  // the last that fits is in [low, high]
-  while (low < high) {
-    const std::size_t middle = (low + high + 1) / 2;
-    if (ec_after(choice, moves.first(middle), options) <= ec) {
-      low = middle;
+  // Asking takes an order, and the last that fit are most often near the end: back from there by ever larger steps, then halves.
+  std::size_t fit = least, over = moves.size() + 1;
+  std::size_t step = 1;
+  while (over - fit > 1) {
+    const std::size_t asked =
+        step > 0 ? std::max(fit + 1, over - std::min(over, step)) : fit + (over - fit) / 2;
+    if (ec_after(choice, moves.first(asked), options) <= ec) {
+      fit = asked;
+      step = 0;
     } else {
-      high = middle - 1;
+      over = asked;
+      step *= 2;
     }
   }
-  return low;
+  return fit;
 }
 
 }  // namespace sg::prune
