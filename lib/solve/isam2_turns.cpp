@@ -140,13 +140,22 @@ Index most_turns(const Isam2Window& window, Index k, const Leaving& leaving) {
   return turns;
 }
 
+bool name_poses_alone(const Isam2& isam, std::span<const Index> rows) {
+  const factor::Problem& problem = *isam.problem;
+  return std::ranges::all_of(rows, [&](Index r) {
+    return std::ranges::all_of(pattern_of(isam).rows[r], [&](Index j) {
+      return problem.graph->role(problem.variables.variable_vertex[j]) == graph::Role::pose;
+    });
+  });
+}
+
 // With landmarks at hand; where EC_BT would be above the budget (0: none), without, if that costs less.
 CliqueTree plan_in_budget(Isam2& isam, const Entering& entering, std::span<const Index> leaving,
                           elim::Wide budget) {
   CliqueTree plan = plan_top(isam, entering.variables, entering.rows);
   if (budget == 0) return plan;
   const elim::Wide ec = ec_after(isam, plan, leaving);
-  if (ec <= budget) return plan;
+  if (ec <= budget || name_poses_alone(isam, entering.rows)) return plan;
   CliqueTree other = plan_top(isam, entering.variables, entering.rows, Last::poses);
   return ec_after(isam, other, leaving) < ec ? other : plan;
 }
