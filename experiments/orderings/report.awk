@@ -8,7 +8,7 @@ file == 2 { tree[$1, $2] = $6; cholmod[$1, $2] = $7; next }
 file == 3 { before[$1, $2] = $3; after[$1, $2] = $4; polish_s[$1, $2] = $5; if (!($2 in was)) { was[$2]; polished[++polishings] = $2 } next }
 file == 4 {
   if ($2 == "colamd") { mean_ec = $4; last_ec = $5; again = $6; seconds = $7; next }
-  replay = replay sprintf("| %s | %d | %s | %s | %s | %s |\n", $1, $3, ratio($4, mean_ec), ratio($5, last_ec),
+  replay = replay sprintf("| %s | %s | %d | %s | %s | %s | %s |\n", $1, $2, $3, ratio($4, mean_ec), ratio($5, last_ec),
                           ratio($6, again), ratio($7, seconds))
   next
 }
@@ -146,8 +146,8 @@ END {
     printf "| %s | %.3f | %.3f | %s | %s | %s |\n", graph[g], low, high, fast == "" ? "-" : sprintf("%.3f", fast),
            slow == "" ? "-" : sprintf("%.3f", slow), ratio(ec[graph[g], "best"], ec[graph[g], "wmf"])
   }
-  print "\n## iSAM2 that orders by wmf\n\nBy that of the same replay by colamd (CCOLAMD), both with the newest variables last.\n"
-  print "| graph | steps | mean EC_BT | last EC_BT | variables eliminated anew | time of all updates |"
-  print "|---|---:|---:|---:|---:|---:|"
+  print "\n## iSAM2 that orders by wmf, or quick\n\nBy that of the same replay by colamd (CCOLAMD), all with the newest variables last.\n"
+  print "| graph | order | steps | mean EC_BT | last EC_BT | variables eliminated anew | time of all updates |"
+  print "|---|---|---:|---:|---:|---:|---:|"
   printf "%s", replay
 }
