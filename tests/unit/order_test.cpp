@@ -107,6 +107,22 @@ TEST_CASE("quick is colamd where that is cheap, and the cheaper of it and wmf el
   CHECK(colamd_alone > 5);
 }
 
+TEST_CASE("quick is wmf alone where a row is wide or much goes last", "[order]") {
+  Random random(15);
+  const Index n = 200;
+  Pattern pattern = odd_pattern(random, n);
+  sg::order::OrderOptions options;
+  const auto all = sg::order::elimination_order("id", pattern);
+  pattern.dim.assign(n, 6);
+  options.last.assign(all.begin(), all.begin() + n / 2);
+  CHECK(sg::order::elimination_order("quick", pattern, options) ==
+        sg::order::elimination_order("wmf", pattern, options));
+  for (Index j = 0; j < n / 2; ++j) pattern.rows.items.push_back(j);
+  pattern.rows.close();
+  CHECK(sg::order::elimination_order("quick", pattern) ==
+        sg::order::elimination_order("wmf", pattern));
+}
+
 TEST_CASE("variables constrained to the end stand at the end", "[order]") {
   Random random(2);
   for (int trial = 0; trial < 200; ++trial) {
